@@ -20,9 +20,11 @@
 #include "amble/experiment/problem/live_inputs.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/figures/steering_figure.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/text.hpp"
+#include "amble/motion/recorded_trial.hpp"
 #include "amble/record/frame_codec.hpp"
 
 namespace amble::cli {
@@ -36,7 +38,7 @@ struct TrialOptions {
   std::optional<std::uint32_t> episode, unseen;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage, command, steering;
-  std::optional<std::filesystem::path> inputs;
+  std::optional<std::filesystem::path> inputs, draw;
   presentation::TrialChoice disturbance;
 };
 
@@ -144,6 +146,31 @@ void print_typical(const experiment::Champion& champion, const TrialOptions& opt
                                       trials.level().under()));
 }
 
+std::string followed_text(const experiment::Tracking& tracking) {
+  if (!tracking.speed_error_m_s) return "followed to 0 of 1: it ended within the first second";
+  return fmt::format("followed to {:.3f} of 1; wrong by {:.3f} m/s and {:.3f} rad/s (mean over seconds)",
+                     tracking.tracking, *tracking.speed_error_m_s, *tracking.turn_error_rad_s);
+}
+
+/// Where there is no recording that is wanted, `scratch` is one.
+void prepare_to_draw(const TrialOptions& options, const experiment::Champion& champion,
+                     std::optional<io::ScratchFile>& scratch) {
+  io::refuse_to_replace(*options.draw, "<svg", "a drawing");
+  if (champion.problem.command.kind == trial::CommandKind::none)
+    fail(ExitCode::bad_input, "--draw: {} was told nothing in its evolution; expected --command as well",
+         options.champion.string());
+  stop_signal();  // from here on what is in the folder for temporary files is removed
+  if (!options.record) scratch.emplace("walk.rec");
+}
+
+/// What it was told beside what it did.
+void draw_steering(const std::filesystem::path& recording, const std::string& note,
+                   const std::filesystem::path& out) {
+  const auto recorded = motion::read_recorded_trial(recording);
+  if (recorded.motion.frames() == 0) fail(ExitCode::bad_input, "--draw: it broke down in its first step");
+  io::write_file(out, figures::steering_svg(recorded.robot, recorded.motion, note));
+}
+
 /// A live session of a page, with all that was done to the robot.
 ExitCode run_again(const std::filesystem::path& champion_path, const std::filesystem::path& inputs_path) {
   const std::string text = io::read_file(champion_path);
@@ -173,10 +200,12 @@ ExitCode run_trial(const TrialOptions& options) {
   if (options.damage) damage_as_in(*options.damage, champion);
   tell(options, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
+  std::optional<io::ScratchFile> scratch;
+  if (options.draw) prepare_to_draw(options, champion, scratch);
   experiment::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
-                                .record = options.record,
+                                .record = scratch ? scratch->path() : options.record,
                                 .origin = path.string(),
                                 .observer = &gait,
                                 .trace = false,
@@ -201,12 +230,7 @@ ExitCode run_trial(const TrialOptions& options) {
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[to_index(result.outcome)], result.seconds, result.distance_m,
              result.distance_m / result.seconds);
-  if (const auto& tracking = result.tracking; tracking && tracking->speed_error_m_s)
-    fmt::print(
-        "commands  followed to {:.3f} of 1; wrong by {:.3f} m/s and {:.3f} rad/s (mean over seconds)\n",
-        tracking->tracking, *tracking->speed_error_m_s, *tracking->turn_error_rad_s);
-  else if (tracking)
-    fmt::print("commands  followed to 0 of 1: it ended within the first second\n");
+  if (result.tracking) fmt::print("commands  {}\n", followed_text(*result.tracking));
   if (!replay->events.empty()) {
     fmt::print("events   ");
     for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);
@@ -214,7 +238,30 @@ ExitCode run_trial(const TrialOptions& options) {
   }
   fmt::print("{}", gait::report_summary(gait.finish(result.outcome)));
   if (options.record) fmt::print("recorded  {}\n", options.record->string());
+  if (options.draw) {
+    draw_steering(*how.record, followed_text(result.tracking.value()), *options.draw);
+    fmt::print("drawn     {}\n", options.draw->string());
+  }
   return ExitCode::ok;
+}
+
+/// Where it walks, with what damage, and what it is told.
+void add_surroundings(CLI::App& command, TrialOptions& options) {
+  command.add_option("--ground", options.ground,
+                     "Walk on the [ground] of this config (default: as in its evolution)");
+  command.add_option("--damage", options.damage,
+                     "With the robot damaged as in the [damage] of this config, or as "
+                     "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
+                     "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
+  command.add_option("--command", options.command,
+                     "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
+                     "[command] of this config (default: as in its evolution)");
+  command.add_option("--steering", options.steering,
+                     "Steered by hand: [controller.differential] in one line, e.g. \"turn_gain = 1.5, "
+                     "full_speed_m_s = 0.4\" (default: as in its evolution)");
+  command.add_option("--draw", options.draw,
+                     "Draw what it is told beside what it does into this file: both paths from above, speed "
+                     "and turn over time (SVG)");
 }
 
 }  // namespace
@@ -247,27 +294,18 @@ void add_trial(CLI::App& app, Action& action) {
     unseen->excludes(command->get_option(other));
   }
   episode->excludes(command->get_option("--noise"));
-  command->add_option("--ground", options->ground,
-                      "Walk on the [ground] of this config (default: as in its evolution)");
-  command->add_option("--damage", options->damage,
-                      "With the robot damaged as in the [damage] of this config, or as "
-                      "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
-                      "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
-  command->add_option("--command", options->command,
-                      "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
-                      "[command] of this config (default: as in its evolution)");
-  command->add_option("--steering", options->steering,
-                      "Steered by hand: [controller.differential] in one line, e.g. \"turn_gain = 1.5, "
-                      "full_speed_m_s = 0.4\" (default: as in its evolution)");
+  add_surroundings(*command, *options);
   auto* const inputs = command->add_option("--inputs", options->inputs,
                                            "Run a live session of a page again, with all that was done to "
                                            "the robot: the file that the page saved");
   for (const char* other :
        {"--seconds", "--engine", "--record", "--episode", "--unseen", "--ground", "--damage", "--command",
-        "--steering", "--level", "--noise", "--trials", "--undisturbed"})
+        "--steering", "--draw", "--level", "--noise", "--trials", "--undisturbed"})
     inputs->excludes(command->get_option(other));
   add_examples(*command, {{"amble trial runs/1", "what it typically does"},
                           {"amble trial runs/1 --command \"0.4,0; 0.4,0.5; 0,0\"", "straight, left, stop"},
+                          {"amble trial runs/1 --command \"0.2,0.3; 0.2,-0.3\" --draw eight.svg",
+                           "a picture of what it was told, and what it did"},
                           {"amble trial runs/1 --seconds 300 --engine ode", ""},
                           {"amble trial runs/1 --damage missing:FL", "with its front left leg missing"}});
   command->callback([options, &action] {

@@ -169,6 +169,17 @@ std::string controller_section(const motion::RecordedTrial& recorded) {
          (recorded.supg ? patterns_section(recorded) : std::string());
 }
 
+std::string steering_section(const motion::RecordedTrial& recorded) {
+  if (recorded.motion.command.empty()) return {};
+  return section(
+      "Told and done",
+      "Dashed: the speed and the turn that it was told, and the way that they lead to. Solid: what "
+      "it did, means over a second.",
+      both([&](FigureSize layout) {
+        return figures::steering_figure(recorded.robot, recorded.motion, {}, layout);
+      }));
+}
+
 std::string path_section(const motion::RecordedTrial& recorded, const motion::Summary& summary) {
   return section(fmt::format("Seen from above: {:.2f} m", summary.distance_m),
                  "The way of the centre of mass, with the places where feet came down in the colours of "
@@ -202,6 +213,7 @@ std::string provenance_section(const RunPage& page) {
 std::string walk_sections(const motion::RecordedTrial& recorded, const motion::Summary& summary) {
   std::string out = footfall_section(recorded);
   out += controller_section(recorded);
+  out += steering_section(recorded);
   return out + path_section(recorded, summary);
 }
 
@@ -249,6 +261,8 @@ std::vector<FigureFile> figure_files(const RunPage& page, const motion::Recorded
     if (recorded.network)
       if (const auto substrate = figures::substrate_of(*recorded.network); figures::can_be_drawn(substrate))
         add("network.svg", figures::substrate_figure(substrate, FigureSize::wide));
+    if (!motion.command.empty())
+      add("steering.svg", figures::steering_figure(robot, motion, {}, FigureSize::wide));
     add("path.svg", figures::path_figure(robot, motion, FigureSize::wide));
   }
   return files;

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
@@ -69,6 +72,57 @@ TEST(DrawCommand, DrawsCppnsOfOtherControllersButNoPatterns) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("is of kind ctrnn: expected supg, which has them\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "patterns.svg"));
+}
+
+/// The commands of the documentation that draw this picture; words in quotes are one.
+std::vector<std::string> drawing_of(const std::string& picture) {
+  std::istringstream lines(slurp(source + "/docs/STEERING.md"));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("amble trial ") ||
+        line.find("--draw docs/pictures/" + picture) == std::string::npos)
+      continue;
+    std::istringstream rest(line);
+    std::vector<std::string> words;
+    for (std::string word; rest >> std::quoted(word) && word != "#";) words.push_back(word);
+    return {words.begin() + 1, words.end()};
+  }
+  return {};
+}
+
+TEST(TrialCommand, DrawsThePicturesOfSteeringThatTheDocumentationShows) {
+  const TemporaryFolder scratch;
+  for (const std::string picture : {"eight.svg", "eight-by-hand.svg"}) {
+    auto words = drawing_of(picture);
+    ASSERT_GT(words.size(), 8u) << picture;
+    words[1] = source + "/" + words[1];
+    words.back() = scratch / picture;
+    const auto drawn = amble(words);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const std::string svg = slurp(scratch / picture);
+    EXPECT_THAT(svg, AllOf(StartsWith("<svg "), HasSubstr(">Turn to the left, rad/s</text>")));
+    EXPECT_EQ(svg, slurp(source + "/docs/pictures/" + picture)) << "made again by its command in STEERING.md";
+    const auto said = drawn.out.find("followed to ");
+    const std::string note = drawn.out.substr(said, drawn.out.find('\n', said) - said);
+    EXPECT_THAT(svg, HasSubstr(">" + note + "</text>")) << "the picture says how well";
+  }
+}
+
+TEST(TrialCommand, DrawsOnlyWhatWasToldSomething) {
+  const TemporaryFolder scratch;
+  const std::string walker = source + "/robots/hexapod/champion.json", out = scratch / "told.svg";
+  const auto untold = amble({"trial", walker, "--undisturbed", "--draw", out});
+  EXPECT_NE(untold.exit_code, 0);
+  EXPECT_THAT(untold.err, HasSubstr("was told nothing in its evolution; expected --command as well"));
+  spill(out, "mine");
+  const auto others = amble({"trial", walker, "--undisturbed", "--command", "0.2,0", "--draw", out});
+  EXPECT_THAT(others.err, HasSubstr("is not a drawing"));
+  EXPECT_EQ(slurp(out), "mine");
+  const std::string recording = scratch / "walk.rec";
+  const auto both = amble({"trial", walker, "--undisturbed", "--command", "0.2,0", "--seconds", "2",
+                           "--record", recording, "--draw", scratch / "a.svg"});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(slurp(scratch / "a.svg"), StartsWith("<svg "));
+  EXPECT_THAT(amble({"info", recording}).out, HasSubstr("command.speed"));
 }
 
 }  // namespace draw_test

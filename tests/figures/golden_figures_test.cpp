@@ -107,6 +107,9 @@ TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
       drawn[name("path")] = path_figure(robot, motion, layout);
       drawn[name("pattern")] = pattern_figure(robot, *walk.supg, motion, layout);
       drawn[name("filmstrip")] = filmstrip_figure(robot, motion, layout);
+      motion::Motion told = motion;
+      for (int k = 0; k < told.frames(); ++k) told.command.push_back({0.5f, k < 60 ? 0.4f : -0.4f});
+      drawn[name("steering")] = steering_figure(robot, told, "note", layout);
     }
     drawn[fmt::format("pattern-{}.svg", legs)] = pattern_svg(robot, *walk.supg);
   }
@@ -124,7 +127,10 @@ TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
               {"pattern-2.svg", "a230784e5e2c8d47"},          {"pattern-4-narrow.svg", "256c13593fbde4f9"},
               {"pattern-4-wide.svg", "51743acd617459f8"},     {"pattern-4.svg", "a1931f89e6d980c4"},
               {"pattern-6-narrow.svg", "a49509cb3d5d4efc"},   {"pattern-6-wide.svg", "5232405e173bcba2"},
-              {"pattern-6.svg", "0a7898caabe475ea"}});
+              {"pattern-6.svg", "0a7898caabe475ea"},          {"steering-2-narrow.svg", "d8d308d7b8870168"},
+              {"steering-2-wide.svg", "12d7bcb89371ba63"},    {"steering-4-narrow.svg", "4bcfc9420fba8740"},
+              {"steering-4-wide.svg", "4909700cec9a5b03"},    {"steering-6-narrow.svg", "4edddfee6104ae73"},
+              {"steering-6-wide.svg", "5ce44f3f810630aa"}});
 }
 
 TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {

@@ -141,6 +141,17 @@ TEST(Page, DrawsNetworkAndPatternsOfAControllerThatHasBoth) {
   EXPECT_THAT(page, HasSubstr("Temporal patterns"));
 }
 
+TEST(Page, DrawsWhatItWasToldBesideWhatItDid) {
+  motion::RecordedTrial recorded = tests::walk(20);
+  EXPECT_THAT(make_page(input(), recorded), Not(HasSubstr("Told and done")));
+  recorded.motion.command.assign(20, {0.5f, 0.1f});
+  const std::string page = make_page(input(), recorded);
+  tests::parse_xml(page);
+  EXPECT_THAT(page, HasSubstr("Told and done"));
+  const auto files = figure_files(input(), recorded);
+  EXPECT_TRUE(std::ranges::any_of(files, [](const auto& file) { return file.name == "steering.svg"; }));
+}
+
 TEST(Page, SaysSoIfItCannotDrawTheController) {
   motion::RecordedTrial recorded = tests::walk(20);
   recorded.controller_kind = "spring";
