@@ -76,7 +76,9 @@ Trace record_trace(const experiment::Problem& original, const neat::Genome& geno
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   Trace trace{.state_names = controllers->state_names(), .ticks = {}};
   engine->place(0);
-  const trial::Protocol protocol = problem.protocol({});
+  trial::Protocol protocol = problem.protocol({});
+  // Who senses a heading error alone is told commands all the same, and its error follows from them.
+  protocol.sensing.extra.command |= protocol.sensing.extra.heading_error;
   Recorder recorder(trace, protocol, *engine, skip_first);
   trial::OneTask task(problem.decode(genome), &recorder);
   trial::Runner runner(*engine, *controllers, protocol);

@@ -40,6 +40,7 @@ std::vector<Sample> samples() {
   some.push_back(untriggered_sample);
   for (const Sample& sample : seam_samples()) some.push_back(sample);
   for (const Sample& sample : modulated_samples()) some.push_back(sample);
+  for (const Sample& sample : sensing_samples()) some.push_back(sample);
   return some;
 }
 

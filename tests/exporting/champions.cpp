@@ -167,6 +167,53 @@ std::vector<Sample> modulated_samples() {
   };
 }
 
+std::vector<Sample> sensing_samples() {
+  const std::string modulation = supg + "modulation.", contact = supg + "contact.";
+  return {
+      {"ctrnn_obeying",
+       "authors/ctrnn",
+       "hexapod",
+       {ctrnn +
+            R"(sensors=["command_stop","command_speed","command_turn","heading_error","yaw_rate","roll","pitch"])",
+        ctrnn + "motor_bias=evolved", ctrnn + "state=kept", ctrnn + "steps_per_tick=1", "command.kind=random",
+        R"(controller.sensing.sensors=[{of="command_speed",scale=2.5},{of="yaw_rate",scale=0.5}])"}},
+      {"ctrnn_feeling",
+       "paper/ctrnn",
+       "quadruped",
+       {"controller.substrate=auto",
+        ctrnn + R"(sensors=["yaw","angle.hip_fb","speed.knee","torque.knee","load","command_turn"])",
+        ctrnn + "equation=potential", "command.kind=random", "trial.first_command=before_first_step",
+        R"(controller.sensing.sensors=[{of="load",scale=0.05,delay_s=0.04},{of="speed",dead_time_s=0.03}])"}},
+      {"modulated_late",
+       "authors/supg",
+       "quadruped",
+       {modulation + R"(sensors=["pitch","torque.knee","command_speed"])", modulation + "rate=1",
+        modulation + "shape=1", "command.kind=random",
+        R"(controller.sensing.sensors=[{of="pitch",delay_s=0.03},{of="touch",delay_s=0.02,dead_time_s=0.04}])"}},
+      {"modulated_by_torque",
+       "paper/supg",
+       "hexapod",
+       {contact + "source=torque", contact + "threshold=1",
+        modulation + R"(sensors=["roll","heading_error"])", modulation + "rate=1", modulation + "shape=0.5",
+        "command.kind=random"}},
+      {"mixed_late",
+       "authors/supg",
+       "hexapod",
+       {"controller.kind=mixed", "command.kind=random", "cppn.linear=identity",
+        R"(controller.sensing.sensors=[{of="command_turn",scale=2.0,delay_s=0.1},{of="touch",dead_time_s=0.05}])"}},
+      {"mixed_by_shock",
+       "authors/supg",
+       "quadruped",
+       {"controller.kind=mixed", "controller.substrate=auto", contact + "source=shock",
+        contact + "threshold=5", "command.kind=random", "cppn.linear=identity"}},
+      {"mixed_by_tracking",
+       "authors/supg",
+       "quadruped",
+       {"controller.kind=mixed", "controller.substrate=auto", contact + "source=tracking",
+        contact + "threshold=0.05", "command.kind=random", "cppn.linear=identity"}},
+  };
+}
+
 Champion evolve(const Sample& sample) {
   const TemporaryFolder scratch;
   Overrides overrides{.assignments = {"engine=batch", "population.size=40", "trial.duration_s=1"},

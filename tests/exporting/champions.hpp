@@ -30,6 +30,9 @@ std::vector<Sample> seam_samples();
 /// SUPGs that sensors modulate.
 std::vector<Sample> modulated_samples();
 
+/// CTRNNs that sense more than touch, sensors that are late, and guessed contacts beside what else is sensed.
+std::vector<Sample> sensing_samples();
+
 /// Its champion after a few generations. One that fell before: in the trials of tests the robot may fall and
 /// go on, so that they are as long as they are meant to be.
 experiment::Champion evolve(const Sample& sample);

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+#include "amble/exporting/trace.hpp"
 #include "tests/exporting/champions.hpp"
 
 namespace amble::exporting {
@@ -77,6 +80,60 @@ TEST(ControllerTables, OfAWalkerSteeredByHandAreItsOwnAndTheSteering) {
   EXPECT_EQ(std::get<SupgTables>(steered.parts).targets_rad, std::get<SupgTables>(walker.parts).targets_rad);
   champion.problem.set_differential({.turn_gain = 4.0, .heading_gain = 1.0});
   EXPECT_TRUE(controller_tables(champion.problem, champion.genome).reads_attitude());
+}
+
+TEST(ControllerTables, OfCtrnnsReadAndUseEachSensorThatTheirModulesHave) {
+  int modules = 0;
+  for (const tests::Sample& sample : tests::sensing_samples()) {
+    if (!sample.name.starts_with("ctrnn")) continue;
+    const experiment::Champion champion = tests::evolve(sample);
+    const ControllerTables tables = controller_tables(champion.problem, champion.genome);
+    const auto& neural = std::get<NeuralTables>(tables.parts);
+    EXPECT_EQ(neural.update, NeuralTables::Update::euler);
+    std::vector<int> uses(neural.sensors.size());
+    for (const NeuralTables::Neuron& neuron : neural.neurons)
+      for (const WeightedLink& link : neuron.from_sensors)
+        if (link.weight != 0.0f) ++uses[to_index(link.source)];
+    for (const std::string& name : champion.problem.controller.ctrnn.sensors) {
+      const std::string kind = name.substr(0, name.find('.'));
+      int used = 0;
+      for (std::size_t i = 0; i < uses.size(); ++i)
+        if (substrate::kind_of(neural.sensors[i].reads).name == kind) used += uses[i];
+      EXPECT_GT(used, 0) << sample.name << " " << name << ": replaying it says nothing of this sensor";
+      ++modules;
+    }
+    const bool obeys = sample.name == "ctrnn_obeying";
+    EXPECT_TRUE(tables.reads_commands() && tables.reads_touch() && tables.reads_attitude());
+    EXPECT_EQ(tables.reads_heading_error(), obeys);
+    EXPECT_EQ(tables.reads_yaw_rate(), obeys);
+    EXPECT_EQ(
+        tables.reads_angles() && tables.reads_speeds() && tables.reads_torques() && tables.reads_loads(),
+        !obeys);
+  }
+  EXPECT_EQ(modules, 13);
+}
+
+TEST(ControllerTables, LeaveOutThatASensorIsLate) {
+  for (const tests::Sample& sample : tests::sensing_samples()) {
+    if (sample.name != "mixed_late") continue;
+    experiment::Champion champion = tests::evolve(sample);
+    const std::atomic<bool> stop{false};
+    const auto targets = [&] {
+      std::vector<std::vector<float>> all;
+      for (auto& tick : record_trace(champion.problem, champion.genome, 200, stop).ticks)
+        all.push_back(std::move(tick.target_rad));
+      return all;
+    };
+    const auto late = targets();
+    for (auto& sensor : champion.problem.controller.sensing.sensors)
+      sensor.delay_s = sensor.dead_time_s = 0.0;
+    EXPECT_EQ(targets(), late) << "test vectors are of readings, not of quantities";
+    const auto mixed =
+        *std::get<SupgTables>(controller_tables(champion.problem, champion.genome).parts).mixed;
+    const auto turn = std::ranges::find(mixed.sensor_names, "command_turn") - mixed.sensor_names.begin();
+    ASSERT_LT(turn, std::ssize(mixed.sensors));
+    EXPECT_EQ(mixed.sensors[to_index(turn)].gain, 2.0f) << "what the controller multiplies by stays";
+  }
 }
 
 TEST(ControllerTables, OfOscillatorsNameTheJointsOfLegsAlone) {
