@@ -33,10 +33,46 @@ std::vector<std::int64_t> instruction_sets() {
   return sets;
 }
 
+/// Kinds of controllers whose loops over the lanes are their own, and what they obey.
+struct Kind {
+  std::string name;
+  std::vector<std::string> settings;
+};
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+std::vector<Kind> all_kinds() {
+  const std::string modulation = "controller.supg.modulation.", told = "command.kind=random",
+                    soon = "command.stretch_s=0.4", automatic = "controller.substrate=auto";
+  return {
+      {"supg", {}},
+      {"modulated",
+       {told, soon, modulation + "rate=1", modulation + "shape=1", modulation + "load_feedback=1",
+        modulation + R"(sensors=["command_turn","heading_error","pitch","torque.knee"])",
+        "controller.supg.seam.residual_s=0.05",
+        R"(controller.sensing.sensors=[{of="pitch",noise=0.02,delay_s=0.03},{of="touch",dead_time_s=0.03}])"}},
+      {"by_torque",
+       {told, soon, "controller.supg.contact.source=torque", "controller.supg.contact.threshold=3",
+        modulation + "rate=1", modulation + R"(sensors=["command_speed","yaw_rate"])"}},
+      {"mixed",
+       {told, soon, automatic, "controller.kind=mixed", "controller.supg.idle=wrap",
+        R"(controller.sensing.sensors=[{of="heading_error",noise=0.05,delay_s=0.05}])"}},
+      {"ctrnn",
+       {told, soon, automatic, "controller.kind=ctrnn", "controller.ctrnn.state=kept",
+        R"(controller.ctrnn.sensors=["command_speed","command_turn","heading_error","yaw_rate","load"])"}}};
+}
+std::string name_of(const testing::TestParamInfo<Kind>& info) {
+  return info.param.name;
+}
+
+class BatchRun : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Each, BatchRun, testing::ValuesIn(all_kinds()), name_of);
+
 /// A whole run's champions, archive and table without its times.
-std::string small_run(const std::filesystem::path& folder, int jobs) {
+std::string small_run(const std::filesystem::path& folder, int jobs, std::vector<std::string> settings) {
   Listener listener;
-  const auto config = small_novelty_config({"engine=batch", "noise.push_m_s=0.2"});
+  settings.insert(settings.end(), {"engine=batch", "noise.push_m_s=0.2"});
+  const auto config = small_novelty_config(std::move(settings));
   EXPECT_EQ(Run::start(folder, config, jobs).execute(listener, listener.stop), RunStatus::finished);
   const RunPaths paths(folder);
   std::string all = io::read_file(folder / "archive.bin");
@@ -49,25 +85,31 @@ std::string small_run(const std::filesystem::path& folder, int jobs) {
   return all;
 }
 
-TEST(BatchRun, GivesTheSameBytesOnEveryInstructionSet) {
+TEST_P(BatchRun, GivesTheSameBytesOnEveryInstructionSet) {
   const TemporaryFolder scratch;
-  const std::string best = small_run(scratch / "best", 2);
+  const std::string best = small_run(scratch / "best", 2, GetParam().settings);
   EXPECT_GT(best.size(), 1000u);
   for (const std::int64_t set : instruction_sets()) {
     hwy::SetSupportedTargetsForTest(set);
-    EXPECT_TRUE(small_run(scratch / hwy::TargetName(set), 1) == best) << hwy::TargetName(set);
+    EXPECT_TRUE(small_run(scratch / hwy::TargetName(set), 1, GetParam().settings) == best)
+        << hwy::TargetName(set);
   }
   hwy::SetSupportedTargetsForTest(0);
 }
 
-TEST(BatchEvaluator, GivesEachGenomeWhatItGetsAloneWhateverTheirOrder) {
-  const auto problem = batch_problem(all_noise());
+class BatchOfKind : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Each, BatchOfKind, testing::ValuesIn(all_kinds()), name_of);
+
+TEST_P(BatchOfKind, GivesEachGenomeWhatItGetsAloneWhateverTheirOrderAndTheWorkers) {
+  auto settings = all_noise();
+  settings.insert(settings.end(), GetParam().settings.begin(), GetParam().settings.end());
+  const auto problem = batch_problem(settings);
   const auto population = small_population(problem);
   const auto scenarios = problem.scenarios(1, 2);
   std::vector<neat::Genome> backwards(population.genomes().rbegin(), population.genomes().rend());
   Evaluator evaluator(problem, {.stride = 5}, 2);
   const auto forth = evaluator.evaluate(population.genomes(), never, scenarios);
-  const auto back = evaluator.evaluate(backwards, never, scenarios);
+  const auto back = Evaluator(problem, {.stride = 5}, 3).evaluate(backwards, never, scenarios);
   for (std::size_t i = 0; i < backwards.size(); ++i) {
     for (std::uint32_t episode = 0; episode < 2; ++episode) {
       const auto& one = forth->of_genome(i)[episode];
