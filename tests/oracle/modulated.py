@@ -7,7 +7,6 @@ import numpy as np
 from supg import STOPPED, Leg
 
 PARTS = 1 << 14
-FULL = {"touch": 1.0, "speed": 10.0, "roll": 0.5, "pitch": 0.5, "yaw": math.pi, "yaw_rate": 2.0}
 
 
 class Modulation:
@@ -18,10 +17,6 @@ class Modulation:
         self.settings = patterns.settings.get("modulation", {})
         self.names = self.settings.get("sensors", [])
         self.load_feedback = self.settings.get("load_feedback", 0.0)
-        self.weight_n = sum(body["mass_kg"] for body in self.robot["bodies"]) * math.hypot(*self.robot["gravity_m_s2"])
-        self.timestep_s = champion["trial"]["timestep_s"]
-        scales = {item["of"]: item["scale"] for item in champion["controller"].get("sensing", {}).get("sensors", [])}
-        self.scales = [scales.get(name.split(".")[0], 1.0) for name in self.names]
         outputs = len(champion["controller"]["substrate"]["outputs"])
         times = np.arange(patterns.period_ticks + 1) / patterns.period_ticks
         self.by_reading = self.settings.get("shape_by") == "reading"
@@ -56,48 +51,22 @@ class Modulation:
         ticks = np.arange(self.patterns.period_ticks + 1)
         return np.interp(s, self.levels, [np.interp(timer, ticks, row) for row in self.shifts_rad[sensor][joint]])
 
-    def sensed(self, leg, recording, frame):
-        """What the sensors of a leg say in a frame; `frame` − 1 is the one whose end they feel."""
-        return [self._scaled(name, scale, leg, recording, frame - 1) for name, scale in zip(self.names, self.scales)]
+    def sensed(self, leg, senses, frame):
+        """What the sensors of a leg say in a frame."""
+        return [senses.within_one(self._of_leg(name, leg), frame) for name in self.names]
 
-    def _scaled(self, name, scale, leg, recording, felt):
+    def _of_leg(self, name, leg):
         kind, _, joint_type = name.partition(".")
-        full, middle = FULL.get(kind), 0.0
-        joint = None
         if joint_type:
-            joint = self.robot["joints"][self.patterns.joints_of_leg[leg][self.robot["joint_types"].index(joint_type)]]
-            if kind == "torque":
-                full = joint["servo"]["max_torque_nm"]
-            if kind == "angle":
-                full, middle = 0.5 * (joint["upper_rad"] - joint["lower_rad"]), 0.5 * (joint["upper_rad"] + joint["lower_rad"])
-        if kind == "load":
-            full = self.weight_n
-        reading = self._reading(kind, joint, leg, recording, felt)
-        return min(max((reading - middle) * scale / full, -1.0), 1.0)
+            joint = self.patterns.joints_of_leg[leg][self.robot["joint_types"].index(joint_type)]
+            return f"{kind}.{self.patterns.joints[joint]}"
+        return f"{kind}.{self.patterns.legs[leg]}" if kind in ("touch", "load") else kind
 
-    def _reading(self, kind, joint, leg, recording, felt):
-        if kind == "touch":
-            return recording["touch." + self.patterns.legs[leg]][felt]
-        if kind in ("load", "torque"):  # of the step before
-            name = self.patterns.legs[leg] if kind == "load" else joint["name"]
-            return recording[f"{kind}.{name}"][felt] if felt >= 0 else 0.0
-        if kind == "angle":
-            return recording["angle." + joint["name"]][felt]
-        if kind == "speed":
-            now = recording["angle." + joint["name"]]
-            return (float(now[felt]) - float(now[felt - 1] if felt > 0 else 0.0)) / self.timestep_s
-        w, x, y, z = (float(recording["root.q" + axis][felt]) for axis in "wxyz")
-        if kind == "roll":
-            return math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-        if kind == "pitch":
-            return math.asin(min(max(2.0 * (w * y - x * z), -1.0), 1.0))
-        raise ValueError(f"the model knows no sensor {kind}")
-
-    def pull(self, leg, timer, recording, frame):
+    def pull(self, leg, timer, senses, frame):
         """How much the load of a leg's foot takes off its timer's growth, ticks."""
         if self.load_feedback == 0.0:
             return 0.0
-        load = self._scaled("load", 1.0, leg, recording, frame - 1)
+        load = senses.within_one("load." + self.patterns.legs[leg], frame)
         return self.load_feedback * load * math.cos(2.0 * math.pi * max(math.floor(timer), 0) / self.patterns.period_ticks)
 
 

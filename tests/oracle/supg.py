@@ -21,6 +21,7 @@ class Patterns:
         self.settings = controller["supg"]
         # A file without the table has targets that jump.
         self.seam = {"time": "line", "detrend": False, "residual_s": 0.0, "filter_s": 0.0, "filter_order": 2} | self.settings.get("seam", {})
+        self.time_inputs = [0.0] if self.seam["time"] == "line" else [0.0, 0.0]
         self.period_ticks = round(self.settings["period_s"] / champion["trial"]["timestep_s"])
         self.legs = [leg["name"] for leg in robot["legs"]]
         self.joints_of_leg = [leg["joints"] for leg in robot["legs"]]
