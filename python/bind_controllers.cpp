@@ -11,6 +11,12 @@
 namespace amble::python {
 namespace {
 
+/// As engines sense it.
+float yaw_of_start(const robot::RobotSpec& robot) {
+  const Quat level = robot::horizontal_frame(robot.gravity_m_s2);
+  return static_cast<float>(roll_pitch_yaw(conjugate(level) * robot.bodies[0].rotation).yaw_rad);
+}
+
 /// A controller per genome, one after the other in the lanes of one batch.
 struct Controllers {
   Controllers(std::shared_ptr<Task> of, std::span<const neat::Genome> genomes)
@@ -24,6 +30,7 @@ struct Controllers {
         shown(std::make_shared<std::vector<float>>(to_index(count) * to_index(joints))),
         extra(task->problem().architecture->extra_senses()),
         rate_hz(static_cast<float>(1.0 / task->problem().trial.timestep_s)),
+        start_yaw_rad(yaw_of_start(task->problem().robot)),
         begun(to_index(count)) {
     sensors.joint_speed_rad_s = LaneArray(joints, count);
     sensors.yaw_rate_rad_s = LaneArray(1, count);
@@ -44,20 +51,23 @@ struct Controllers {
         begun[to_index(lane)] = false;
       }
   }
-  /// Rates from this tick's angles, which are in `sensors`, and those of the last; 0 in a lane's first tick.
+  /// Rates from this tick's angles, which are in `sensors`, and those of the last. In a lane's first tick
+  /// from the start pose, where a trial makes a step before it, and 0 where it does not.
   void take_rates(const LaneArray& angles_before_rad, const LaneArray& attitudes_before_rad) {
+    const bool stepped = task->problem().trial.first_command == trial::FirstCommand::after_first_step;
     for (int lane = 0; lane < count; ++lane) {
       const bool known = begun[to_index(lane)];
       begun[to_index(lane)] = true;
-      for (int joint = 0; joint < joints; ++joint)
-        sensors.joint_speed_rad_s.at(joint, lane) =
-            known ? trial::rate_of(angles_before_rad.at(joint, lane), sensors.joint_angle_rad.at(joint, lane),
-                                   rate_hz)
-                  : 0.0f;
-      sensors.yaw_rate_rad_s.at(0, lane) =
-          known ? trial::turning_rate_of(attitudes_before_rad.at(2, lane), sensors.attitude_rad.at(2, lane),
-                                         rate_hz)
-                : 0.0f;
+      for (int joint = 0; joint < joints; ++joint) {
+        const float now_rad = sensors.joint_angle_rad.at(joint, lane);
+        const float before_rad = known     ? angles_before_rad.at(joint, lane)
+                                 : stepped ? 0.0f  // the start pose's
+                                           : now_rad;
+        sensors.joint_speed_rad_s.at(joint, lane) = trial::rate_of(before_rad, now_rad, rate_hz);
+      }
+      const float yaw_rad = sensors.attitude_rad.at(2, lane);
+      const float before_rad = known ? attitudes_before_rad.at(2, lane) : stepped ? start_yaw_rad : yaw_rad;
+      sensors.yaw_rate_rad_s.at(0, lane) = trial::turning_rate_of(before_rad, yaw_rad, rate_hz);
     }
   }
   /// By the commands that the frame has: none is a stop.
@@ -94,7 +104,7 @@ struct Controllers {
   LaneArray targets_rad, wanted_yaw_rad;
   std::shared_ptr<std::vector<float>> shown;  ///< count × joints; views keep it
   robot::ExtraSenses extra;
-  float rate_hz;
+  float rate_hz, start_yaw_rad;
   std::vector<bool> begun;  ///< by lane: whether there was a tick
   CallLock lock;
 };
@@ -197,7 +207,8 @@ Joints and legs are in control order (docs/CONVENTIONS.md), as in Robots.)")
 
 angle_rad: [n, joints], from the start pose. touch: [n, legs], 1 on the ground, else 0. attitude_rad: [n, 3], roll, pitch
 and yaw of the root (default: 0). torque_nm: [n, joints], load_n: [n, legs], command: [n, 2], speed (m/s) and turn to the left
-(rad/s), of controllers that sense them (docs/CONTROLLERS.md); speeds, the yaw rate and the heading error are taken from tick to tick. All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
+(rad/s), of controllers that sense them (docs/CONTROLLERS.md); speeds, the yaw rate and the heading error are taken from tick to tick, in the
+first from the start pose where trial.first_command is "after_first_step". All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
       .def("reset", reset_controllers, py::arg("mask") = py::none(),
            "Puts controllers into their initial state. mask: [n], bool: which ones (default: all).")
       .def_property_readonly(

@@ -2,7 +2,7 @@ import amble
 import numpy as np
 import pytest
 
-from conftest import CONFIG, SMALL
+from conftest import CONFIG, SMALL, SOURCE, program
 
 ALL = [CONFIG, CONFIG.parent / "sine-objective.toml", CONFIG.parent / "ctrnn-objective.toml",
        CONFIG.parent.parent / "paper/supg-objective.toml"]
@@ -29,18 +29,63 @@ def test_controllers_and_robots_walk_as_champions_do_to_the_bit(path, tmp_path):
         assert (robots.com_m[:, 0] == com_x[frame]).all()
 
 
-def test_controllers_that_sense_walk_as_champions_do_to_the_bit(tmp_path):
+@pytest.mark.parametrize("first_command", ["before_first_step", "after_first_step"])
+def test_controllers_that_sense_walk_as_champions_do_to_the_bit(first_command, tmp_path):
     supg = {"controller.supg.modulation.sensors": ["pitch", "speed.knee", "yaw_rate"], "controller.supg.modulation.rate": 1.0,
             "controller.supg.modulation.shape": 1.0, "controller.supg.seam.residual_s": 0.05}
-    config = amble.load_config(CONFIG, {**SMALL, **supg, "generations": 1, "trial.first_command": "before_first_step"})
+    config = amble.load_config(CONFIG, {**SMALL, **supg, "generations": 1, "trial.first_command": first_command})
     champion = amble.evolve(config, 3, out=tmp_path / "run").champion()
     champion.trial(record=tmp_path / "walk.rec")
     targets = amble.Recording(tmp_path / "walk.rec").matching("target.")
     robots, controllers = amble.Robots(config, 1), amble.Controllers(config, [champion.genome])
     for frame in range(len(targets)):
-        wanted = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad)
+        if frame == 0 and first_command == "after_first_step":
+            wanted = robots.angle_rad.copy()
+        else:
+            wanted = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad)
         assert np.array_equal(wanted[0], targets[frame]), frame
         robots.step(wanted)
+
+
+STEERED = SOURCE / "robots/hexapod/steered.json"
+
+
+def told_walk(command, ticks):
+    """Targets, ways and headings of the mixed champion, tick by tick, told this in a loop of one's own."""
+    config = amble.load_config(SOURCE / "robots/hexapod/steer.toml")
+    robots, controllers = amble.Robots(config, 1), amble.Controllers(config, [amble.Champion(STEERED).genome])
+    targets, ways_m, headings_rad = [], [], []
+    for tick in range(ticks):
+        if tick == 0:  # trial.first_command = "after_first_step"
+            wanted = robots.angle_rad.copy()
+        else:
+            wanted = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad, command=[command(tick)])
+        targets.append(wanted[0].copy())
+        robots.step(wanted)
+        ways_m.append(robots.com_m[0].copy())
+        headings_rad.append(float(robots.attitude_rad[0, 2]))
+    return np.array(targets), np.array(ways_m), np.unwrap(headings_rad)
+
+
+def test_a_mixed_champion_that_is_told_walks_as_amble_trial_does_to_the_bit(tmp_path):
+    code, said = program("trial", STEERED, "--undisturbed", "--seconds", "6", "--command", "0.2,0.3; 0.15,-0.2; 0,0", "--record",
+                         tmp_path / "walk.rec")
+    assert code == 0, said
+    recording = amble.Recording(tmp_path / "walk.rec")
+    assert len(recording) == 600
+    targets, ways_m, _ = told_walk(lambda tick: (recording["command.speed"][tick], recording["command.turn"][tick]), 600)
+    for tick in range(600):
+        assert np.array_equal(targets[tick], recording.matching("target.")[tick]), tick
+    for axis, name in enumerate(("com.x", "com.y")):
+        assert np.array_equal(ways_m[:, axis], recording[name])
+
+
+def test_a_mixed_champion_turns_as_it_is_told():
+    # Told nothing is told to stop.
+    turned_rad = {turn: told_walk(lambda tick: (0.2, turn), 800)[2][-1] for turn in (0.3, 0.0, -0.3)}
+    assert turned_rad[0.3] > turned_rad[0.0] + 0.5 and turned_rad[-0.3] < turned_rad[0.0] - 0.5, turned_rad
+    stood_m, went_m = (told_walk(lambda tick: (speed, 0.0), 800)[1][-1, 0] for speed in (0.0, 0.28))
+    assert went_m > stood_m + 0.5, (stood_m, went_m)
 
 
 def test_controllers_ask_for_readings_that_they_sense(config):
