@@ -1,7 +1,9 @@
 #include "amble/controllers/sensing.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -120,10 +122,25 @@ TEST(Sensing, SaysWhatMustBeSensedBesideWhatEnginesGive) {
   EXPECT_FALSE(through_one_neuron("pitch").extra_senses().any());
 }
 
-TEST(Sensing, EachRowOfTheTableIsInTheDocs) {
+TEST(Sensing, TheTableInTheDocsHasEachSensorWithItsUnitAndWhatCountsAsOneAndNoOther) {
   const std::string docs = io::read_file(AMBLE_SOURCE_DIR "/docs/CONTROLLERS.md");
-  for (const substrate::SensorKind& kind : substrate::sensor_kinds())
-    EXPECT_NE(docs.find("| `" + std::string(kind.name)), std::string::npos) << kind.name;
+  const std::size_t begin = docs.find("\n| sensor | unit | full |"), end = docs.find("\n\n", begin);
+  ASSERT_NE(begin, std::string::npos);
+  const std::string table = docs.substr(begin, end - begin);
+  for (const substrate::SensorKind& kind : substrate::sensor_kinds()) {
+    using Owner = substrate::SensorOwner;
+    const char* const of = kind.owner == Owner::joint ? ".JOINT" : kind.owner == Owner::leg ? ".LEG" : "";
+    std::string row = fmt::format("\n| `{}{}` | {} | ", kind.name, of, kind.unit);
+    if (kind.owner == Owner::clock)
+      row += "– |";
+    else if (kind.full == std::numbers::pi)
+      row += "π |";
+    else if (kind.full != 0.0)  // else it depends on the robot, in words
+      row += fmt::format("{} |", kind.full);
+    EXPECT_NE(table.find(row), std::string::npos) << row;
+  }
+  // One more line each for the head and what is below it.
+  EXPECT_EQ(std::ranges::count(table, '\n'), std::ssize(substrate::sensor_kinds()) + 2);
 }
 
 using substrate::Attitude;
