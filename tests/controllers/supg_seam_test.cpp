@@ -256,6 +256,53 @@ TEST(SupgSeam, FiltersAnswerAStepAsTheirOrderSays) {
   }
 }
 
+/// The front left knee's pattern at a timer that need not be whole.
+double pattern_at(const SupgParameters& parameters, float timer) {
+  const int whole = static_cast<int>(timer), next = std::min(whole + 1, parameters.period_ticks());
+  const double a = parameters.targets_rad(0, whole)[0], b = parameters.targets_rad(0, next)[0];
+  return a + (static_cast<double>(timer) - whole) * (b - a);
+}
+
+TEST(SupgSeam, BoundsStepsOfTargetsAlsoWhereTimersGrowFaster) {
+  // |Δy| ≤ growth × max |ΔP| + |r| h/τ: a timer grows by up to two ticks, r is what parts target and pattern.
+  Stream stream(33, Purpose::test);
+  for (const double rho : {-1.0, 0.3, 1.0})
+    for (const double reset : {1.0, 0.5}) {
+      constexpr double residual_s = 0.05;
+      SupgSettings settings;
+      settings.period_s = period * timestep_s;
+      settings.idle = Idle::wrap;
+      settings.seam = {.residual_s = residual_s};
+      settings.modulation = {.sensors = {"pitch"}, .rate = 1.0, .reset = reset};
+      ModulatedParameters parameters(random_parameters(quadruped(), stream), 1, 1);
+      for (int leg = 0; leg < legs; ++leg) parameters.modulation().rate(leg, 0) = static_cast<float>(rho);
+      const auto batch = SupgArchitecture(settings, supg_substrate(), quadruped(), timestep_s).make_batch(1);
+      batch->load(0, parameters);
+      double most = 0.0, residual = 0.0, before = 0.0;
+      for (int tick = 0; tick < period; ++tick)
+        most = std::max(most, std::fabs(static_cast<double>(parameters.targets_rad(0, tick + 1)[0]) -
+                                        parameters.targets_rad(0, tick)[0]));
+      robot::SensorFrame sensors{LaneArray(joints, 1), LaneArray(legs, 1), LaneArray(3, 1)};
+      sensors.attitude_rad.at(1, 0) = 0.5f;
+      LaneArray targets(joints, 1);
+      std::vector<float> state(2 * legs);
+      int triggers = 0;
+      for (int tick = 0; tick < 2000; ++tick) {
+        sensors.touch.at(0, 0) = stream.chance(0.1) ? 1.0f : 0.0f;
+        batch->step(sensors, targets);
+        batch->state(0, state);
+        const double target = targets.at(0, 0), step = std::fabs(target - before);
+        if (tick > 0) {
+          ASSERT_LE(step, std::exp2(rho) * most + residual * timestep_s / residual_s + 1e-4) << tick;
+        }
+        residual = std::fabs(target - pattern_at(parameters, state[0]));
+        before = target;
+        triggers += state[legs] > 0.5f ? 1 : 0;
+      }
+      EXPECT_GT(triggers, 50) << rho;
+    }
+}
+
 TEST(SupgSeam, IsLeftOutOfJsonAtItsDefaultsAndReadBackElse) {
   SupgSettings settings;
   EXPECT_FALSE(io::settings_to_json(settings).contains("seam"));
