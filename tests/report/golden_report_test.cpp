@@ -28,7 +28,7 @@ TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
                                                                    {"distance-ode.svg", "d2efe48e54d7170e"},
                                                                    {"distance.svg", "9c6b93ca425adec2"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
-                                                                   {"report.html", "872a66220414eb7d"},
+                                                                   {"report.html", "05209efbcd21993e"},
                                                                    {"runs.csv", "1f4f4065d23006c9"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
                                                                    {"upright-long.svg", "db68d5dd2e14c067"},
@@ -47,7 +47,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "54f814c86cb1bf2d"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "c382b81d148eecdd"}});
+                              {"report.html", "148d2dc3bab29365"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
@@ -59,7 +59,7 @@ TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
                         {"distance-ode.svg", "9b57fef4b5bb87dc"},
                         {"distance.svg", "b50e8c08468766b9"},
                         {"gaits.csv", "624a2e0c41e13fe1"},
-                        {"report.html", "87915614b85ee437"},
+                        {"report.html", "665f10033ed2ee7e"},
                         {"runs.csv", "e9026294e9c5c3d6"},
                         {"survival.csv", "e924fdae1fbaf0c6"},
                         {"upright-long.svg", "eaf7c66f041e51ac"},
@@ -74,7 +74,7 @@ TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
   data.study.claims[0].alpha = 0.01;
   data.unknown_files = {"notes.txt"};
   tests::expect_golden({{"half.html", make_page(make_report(std::move(data)))}},
-                       {{"half.html", "ce5315da19d17e8a"}});
+                       {{"half.html", "0b98d16da7223dcb"}});
 }
 
 }  // namespace
