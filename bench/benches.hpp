@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/table.hpp"
@@ -20,6 +21,9 @@ void measure_novelty(std::vector<Figure>& figures);
 void measure_physics(std::vector<Figure>& figures);
 /// Many robots in the batch engine, beside one in MuJoCo: what bench/robots.py compares Python's with.
 void measure_robots(std::vector<Figure>& figures);
+/// The robot of a config, all joints swinging, in the config's engine with its settings, beside mj_step: on
+/// one core, and on all. Throws UserError as experiment::load_config() and load_robot().
+void measure_config(const std::string& config_file, std::vector<Figure>& figures);
 /// Whole runs: evaluations per second by workers, share outside physics, memory.
 void measure_runs(std::vector<Figure>& figures);
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
 #include "bench/benches.hpp"
@@ -28,7 +29,7 @@ constexpr Part parts[] = {
 };
 
 struct Options {
-  std::string_view csv, only;
+  std::string_view csv, only, config;
 };
 
 /// Nothing if the arguments make no sense.
@@ -36,29 +37,44 @@ std::optional<Options> options_of(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; i += 2) {
     const std::string_view name = argv[i];
-    if (i + 1 == argc || (name != "--csv" && name != "--only")) return {};
-    (name == "--csv" ? options.csv : options.only) = argv[i + 1];
+    std::string_view* const value = name == "--csv"      ? &options.csv
+                                    : name == "--only"   ? &options.only
+                                    : name == "--config" ? &options.config
+                                                         : nullptr;
+    if (i + 1 == argc || value == nullptr) return {};
+    *value = argv[i + 1];
   }
   const bool known = std::ranges::any_of(parts, [&](const Part& part) { return part.name == options.only; });
-  return options.only.empty() || known ? std::optional(options) : std::nullopt;
+  return options.only.empty() || (known && options.config.empty()) ? std::optional(options) : std::nullopt;
+}
+
+/// A robot of one's own, one part, or all.
+std::vector<amble::bench::Figure> measure(const Options& options) {
+  std::vector<amble::bench::Figure> figures;
+  if (!options.config.empty()) {
+    amble::bench::measure_config(std::string(options.config), figures);
+    return figures;
+  }
+  for (const Part& part : parts)
+    if (options.only.empty() || options.only == part.name) part.measure(figures);
+  return figures;
 }
 
 }  // namespace
 
-// Measures everything in one run, or one part of it, and prints ratios first. Run it on a machine that does
-// nothing else.
-int main(int argc, char** argv) {
+// Measures everything in one run, one part of it, or the robot of a config, and prints ratios first. Run it
+// on a machine that does nothing else.
+int main(int argc, char** argv) try {
   using namespace amble;
   const auto options = options_of(argc, argv);
   if (!options) {
     std::vector<std::string_view> names;
     for (const Part& part : parts) names.push_back(part.name);
-    fmt::print(stderr, "usage: amble_bench [--csv FILE] [--only {}]\n", fmt::join(names, "|"));
+    fmt::print(stderr, "usage: amble_bench [--csv FILE] [--only {} | --config CONFIG.toml]\n",
+               fmt::join(names, "|"));
     return 2;
   }
-  std::vector<bench::Figure> figures;
-  for (const Part& part : parts)
-    if (options->only.empty() || options->only == part.name) part.measure(figures);
+  const std::vector<bench::Figure> figures = measure(*options);
   const auto build = experiment::build_info();
   const std::int64_t supported = hwy::SupportedTargets();
   const std::vector<bench::Circumstance> circumstances{
@@ -71,4 +87,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, text] : circumstances) fmt::print("\n{:<16} {}", name, text);
   fmt::print("\n");
   if (!options->csv.empty()) io::write_file(std::string(options->csv), bench::to_csv(figures, circumstances));
+} catch (const amble::UserError& error) {
+  fmt::print(stderr, "amble_bench: {}\n", error.what());
+  return 2;
 }

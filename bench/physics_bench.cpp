@@ -41,18 +41,21 @@ Targets swing(const robot::RobotSpec& robot) {
   return [&robot](int step, LaneArray& targets_rad) { set_targets(robot, step, targets_rad); };
 }
 
-/// Robot-steps per second of one engine on one core, all lanes busy.
-double steps_per_s(const char* name, const robot::RobotSpec& robot, const Targets& targets) {
-  const auto engine = physics::make_engine(name, robot, {});
-  LaneArray targets_rad(static_cast<int>(robot.joints.size()), engine->lanes());
+/// Robot-steps per second of an engine on one core, all lanes busy.
+double steps_per_s(physics::Engine& engine, int joints, const Targets& targets) {
+  LaneArray targets_rad(joints, engine.lanes());
   const double seconds = seconds_per_call([&] {
-    for (int lane = 0; lane < engine->lanes(); ++lane) engine->place(lane);
+    for (int lane = 0; lane < engine.lanes(); ++lane) engine.place(lane);
     for (int step = 0; step < steps; ++step) {
       targets(step, targets_rad);
-      engine->step(targets_rad);
+      engine.step(targets_rad);
     }
   });
-  return steps * engine->lanes() / seconds;
+  return steps * engine.lanes() / seconds;
+}
+
+double steps_per_s(const char* name, const robot::RobotSpec& robot, const Targets& targets) {
+  return steps_per_s(*physics::make_engine(name, robot, {}), static_cast<int>(robot.joints.size()), targets);
 }
 
 /// Changes every quarter of a second: as many arrays of targets as stay in the cache.
@@ -86,7 +89,8 @@ double steps_per_s(const char* name, const robot::RobotSpec& robot) {
 /// The same of MuJoCo by itself: mj_step with its own soft contacts and options, but for the limit of 20
 /// iterations, and a damped servo with the same limits of torque. The engine "mujoco" is slower, because it
 /// solves ODE's stiffer equations.
-double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets) {
+double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets,
+                      double timestep_s = physics::EngineSettings{}.timestep_s) {
   const auto mjcf = morphology::write_mjcf(robot);
   static std::mutex compiling;  // MuJoCo's compiler is not for several threads at once
   const auto owned = [&] {
@@ -94,7 +98,7 @@ double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets) {
     return morphology::compile_mjcf(mjcf.text, "bench");
   }();
   mjModel* const model = owned.get();
-  model->opt.timestep = physics::EngineSettings{}.timestep_s;
+  model->opt.timestep = timestep_s;
   model->opt.iterations = 20;
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model), mj_deleteData);
   LaneArray targets_rad(static_cast<int>(robot.joints.size()), 1);
@@ -197,6 +201,28 @@ void measure_robots(std::vector<Figure>& figures) {
     figures.push_back({"batch_vs_mujoco_" + name, batch / mujoco, "1", what + ", mj_step alone"});
     if (name == "hexapod") measure_threads(name, robot, figures);
   }
+}
+
+void measure_config(const std::string& config_file, std::vector<Figure>& figures) {
+  const auto config = experiment::load_config(config_file, {});
+  const auto problem = experiment::Problem::make(config, experiment::load_robot(config));
+  const robot::RobotSpec& robot = problem.robot;
+  const int joints = static_cast<int>(robot.joints.size());
+  const Targets targets = quarter_swing(robot);
+  const auto engine_rate = [&] { return steps_per_s(*problem.make_engine(), joints, targets); };
+  const auto mujoco_rate = [&] { return mj_steps_per_s(robot, targets, problem.trial.timestep_s); };
+  const std::string what = fmt::format("{}, {} joints, {} legs, steps of {:g} s", robot.name, joints,
+                                       robot.legs.size(), problem.trial.timestep_s);
+  const std::string threads = fmt::format("{} threads, ", std::thread::hardware_concurrency()) + what;
+  const double one = engine_rate(), one_mujoco = mujoco_rate(), all = on_all_processors(engine_rate),
+               all_mujoco = on_all_processors(mujoco_rate);
+  figures.push_back({problem.engine + "_robot_steps_per_s", one, "1/s", "one core, " + what});
+  figures.push_back({problem.engine + "_robot_steps_per_s_threads", all, "1/s", threads});
+  figures.push_back({"mujoco_robot_steps_per_s", one_mujoco, "1/s", "mj_step alone, one core, " + what});
+  figures.push_back({"mujoco_robot_steps_per_s_threads", all_mujoco, "1/s",
+                     "mj_step alone, a simulation in each thread, " + threads});
+  figures.push_back({problem.engine + "_vs_mujoco", one / one_mujoco, "1", "one core, " + what});
+  figures.push_back({problem.engine + "_vs_mujoco_threads", all / all_mujoco, "1", threads});
 }
 
 void measure_physics(std::vector<Figure>& figures) {

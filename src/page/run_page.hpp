@@ -48,8 +48,9 @@ struct FigureFile {
 };
 
 /// All names of figure files.
-inline constexpr std::array<std::string_view, 8> figure_names{
-    "filmstrip.svg", "walk.svg", "fitness.svg", "footfalls.svg", "patterns.svg", "network.svg", "path.svg", "steering.svg"};
+inline constexpr std::array<std::string_view, 8> figure_names{"filmstrip.svg", "walk.svg",     "fitness.svg",
+                                                              "footfalls.svg", "patterns.svg", "network.svg",
+                                                              "path.svg",      "steering.svg"};
 
 /// The figures of the page, in its order: filmstrip and the same as an animation, fitness (if
 /// page.generations has any), footfalls, patterns (SUPGs only), network (network controllers only) and path.
