@@ -164,41 +164,46 @@ void MixedBatch::read_phases() {
   run_sums(to_phases_, phases_.data(), pulls_.data(), count);
 }
 
-void MixedBatch::set_rates(int leg) {
-  PulledRates rates{
-      .sum = sums_.row(leg), .sine = nullptr, .cosine = nullptr, .sines = nullptr, .cosines = nullptr};
-  if (couples())
-    rates = {.sum = sums_.row(leg),
-             .sine = phases_.row(leg),
-             .cosine = phases_.row(legs_ + leg),
-             .sines = pulls_.row(leg),
-             .cosines = pulls_.row(legs_ + leg)};
-  run_pulled_rates(rates, advances(), lanes());
+void MixedBatch::set_rates() {
+  for (int leg = 0; leg < legs_; ++leg) {
+    PulledRates rates{
+        .sum = sums_.row(leg), .sine = nullptr, .cosine = nullptr, .sines = nullptr, .cosines = nullptr};
+    if (couples())
+      rates = {.sum = sums_.row(leg),
+               .sine = phases_.row(leg),
+               .cosine = phases_.row(legs_ + leg),
+               .sines = pulls_.row(leg),
+               .cosines = pulls_.row(legs_ + leg)};
+    run_pulled_rates(rates, advances(leg), lanes());
+  }
 }
 
-void MixedBatch::reshape(int supg, float* targets_rad) {
-  if (!net_->reshapes(to_index(supg))) return;
-  const JointRange& range = range_of(supg);
-  const auto middle_rad = static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
-  const auto half_rad = static_cast<float>(0.5 * (range.upper_rad - range.lower_rad));
-  run_reshape({.amplitude = sums_.row(legs_ + supg),
-               .shift = sums_.row(legs_ + supgs_count_ + supg),
-               .middle_rad = middle_rad,
-               .half_rad = half_rad},
-              targets_rad, lanes());
+void MixedBatch::reshape(float* targets_rad) {
+  for (int supg = 0; supg < supgs_count_; ++supg) {
+    if (joint_of(supg) < 0 || !net_->reshapes(to_index(supg))) continue;
+    const JointRange& range = range_of(supg);
+    const auto middle_rad = static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
+    const auto half_rad = static_cast<float>(0.5 * (range.upper_rad - range.lower_rad));
+    run_reshape({.amplitude = sums_.row(legs_ + supg),
+                 .shift = sums_.row(legs_ + supgs_count_ + supg),
+                 .middle_rad = middle_rad,
+                 .half_rad = half_rad},
+                targets_rad + row(supg), lanes());
+  }
 }
 
-void MixedBatch::end_target(int supg, const float* targets_rad) {
-  const auto listened = std::ranges::find(net_->listened, supg);
-  if (listened == net_->listened.end()) return;
-  float* const row =
-      values_.row(net_->first_listened() + static_cast<int>(listened - net_->listened.begin()));
-  const JointRange& range = range_of(supg);
-  const auto middle_rad = static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
-  const double width_rad = range.upper_rad - range.lower_rad;
-  const auto per_half = static_cast<float>(width_rad > 0.0 ? 2.0 / width_rad : 0.0);
-  const int count = lanes();
-  for (int lane = 0; lane < count; ++lane) row[lane] = (targets_rad[lane] - middle_rad) * per_half;
+void MixedBatch::targets_are_set(const LaneArray& targets_rad) {
+  for (std::size_t i = 0; i < net_->listened.size(); ++i) {
+    const int supg = net_->listened[i];
+    if (joint_of(supg) < 0) continue;
+    const float* const target_rad = targets_rad.row(joint_of(supg));
+    float* const to = values_.row(net_->first_listened() + static_cast<int>(i));
+    const JointRange& range = range_of(supg);
+    const auto middle_rad = static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
+    const double width_rad = range.upper_rad - range.lower_rad;
+    const auto per_half = static_cast<float>(width_rad > 0.0 ? 2.0 / width_rad : 0.0);
+    for (int lane = 0; lane < lanes(); ++lane) to[lane] = (target_rad[lane] - middle_rad) * per_half;
+  }
 }
 
 std::vector<std::string> MixedBatch::state_names() const {

@@ -28,9 +28,9 @@ class MixedBatch : public ModulatedSupgBatch {
 
  private:
   void begin_tick(const robot::SensorFrame& sensors) override;
-  void set_rates(int leg) override;
-  void reshape(int supg, float* targets_rad) override;
-  void end_target(int supg, const float* targets_rad) override;
+  void set_rates() override;
+  void reshape(float* targets_rad) override;
+  void targets_are_set(const LaneArray& targets_rad) override;
 
   void fill_tables();
   /// A row of sums and its links.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "amble/controllers/supg_targets.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 
@@ -36,20 +37,20 @@ ModulatedSupgBatch::ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters
   shapes_ = settings.modulation.shape > 0.0;
   by_reading_ = settings.modulation.shape_by == ShapeBy::reading;
 
-  const int legs = parked_.legs(), sensors = parked_.modulation().sensors();
-  tables_.resize(to_index(lanes));
-  for (auto* const values :
-       {&timer_, &continued_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_, &refractory_left_})
-    values->resize(to_index(legs * lanes));
-  for (auto* const values : {&advance_, &no_chance_, &jumped_, &fresh_}) values->resize(to_index(lanes));
+  const int legs = parked_.legs(), all = legs * lanes, sensors = parked_.modulation().sensors();
+  tables_.resize(to_index(all));
+  for (auto* const values : {&timer_, &continued_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_,
+                             &refractory_left_, &advance_, &no_chance_, &jumped_})
+    values->resize(to_index(all));
+  fresh_.resize(to_index(lanes));
   std::ranges::fill(advance_, parts_per_tick);
-  sensed_ = LaneRows(sensors, lanes);
+  sensed_ = LaneRows(sensors, all);
   cosines_ = phase_cosines(settings.modulation, parked_.period_ticks());
-  if (!cosines_.empty()) load_ = LaneRows(1, lanes);
-  if (by_reading_) weights_ = LaneRows(parked_.modulation().channels(), lanes);
-  rates_ = LaneRows(legs * sensors, lanes);
+  if (!cosines_.empty()) load_ = LaneRows(1, all);
+  if (by_reading_) weights_ = LaneRows(parked_.modulation().channels(), all);
+  rates_ = LaneRows(sensors, all);
   for (auto* const values : {&continued_rad_, &present_rad_})
-    values->resize(to_index(parked_.modulation().width() * lanes));
+    values->resize(to_index(parked_.modulation().width() * all));
   for (const int joint : supgs_.joints.of_legs) {
     const JointRange range = joint < 0 ? JointRange{} : supgs_.joints.ranges[to_index(joint)];
     limits_rad_.emplace_back(range.at(0.0), range.at(1.0));
@@ -67,18 +68,18 @@ void ModulatedSupgBatch::load(int lane, const Parameters& parameters) {
   AMBLE_CHECK(supg != nullptr && supg->legs() == parked_.legs() && supg->types() == parked_.types() &&
                   supg->period_ticks() == parked_.period_ticks(),
               "the parameters belong to another architecture");
-  tables_[to_index(lane)] = supg->modulation().entry(0, stopped);
   if (random_) random_->load(lane);
   if (supgs_.contact) supgs_.contact->load(lane);
   const int sensors = supg->modulation().sensors();
   for (int leg = 0; leg < supg->legs(); ++leg) {
     const std::size_t i = index(leg, lane);
     const bool phase = rules_.phase != 0;
+    tables_[i] = supg->modulation().entry(leg, stopped);
     timer_[i] = continued_[i] = stopped;
     airborne_ticks_[i] = triggered_[i] = refractory_left_[i] = 0;
     wait_ticks_[i] = phase ? 0 : supg->offset_ticks(leg);
     first_timer_[i] = phase ? supg->offset_ticks(leg) * parts_per_tick : start_;
-    for (int s = 0; s < sensors; ++s) rates_.at(leg * sensors + s, lane) = supg->modulation().rate(leg, s);
+    for (int s = 0; s < sensors; ++s) rates_.row(s)[i] = supg->modulation().rate(leg, s);
   }
   fresh_[to_index(lane)] = 1;
 }
@@ -89,161 +90,139 @@ void ModulatedSupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targ
   AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
   if (supgs_.contact) supgs_.contact->update(sensors);
   begin_tick(sensors);
-  for (int leg = 0; leg < parked_.legs(); ++leg) {
-    sense(leg, sensors);
-    if (shapes_ && by_reading_) weigh_levels();
-    set_rates(leg);
-    update_timers(leg, supgs_.contact ? supgs_.contact->row(leg) : sensors.touch.row(leg),
-                  random_ ? random_->advance(leg) : no_chance_.data());
-    write_targets(leg, targets_rad);
-  }
+  sense(sensors);
+  if (shapes_ && by_reading_)
+    run_weights(sensed_.data(), sensed_.stride(), parked_.modulation().sensors(), weights_.data(), count());
+  set_rates();
+  update_timers(supgs_.contact ? supgs_.contact->row(0) : sensors.touch.row(0));
+  write_targets(targets_rad);
   for (const auto& [joint, target_rad] : supgs_.joints.others)
     std::fill_n(targets_rad.row(joint), lanes_, target_rad);
   if (supgs_.contact) supgs_.contact->targets(targets_rad);
   std::ranges::fill(fresh_, 0);
 }
 
-void ModulatedSupgBatch::sense(int leg, const robot::SensorFrame& sensors) {
+void ModulatedSupgBatch::sense(const robot::SensorFrame& sensors) {
   rows_.clear();
   const auto read = [&](const LegSensor& sensor, float* sensed) {
     const float* const reading = sensor.is_there ? substrate::row_of(sensor.sensor, sensors) : nullptr;
     AMBLE_CHECK(!sensor.is_there || reading != nullptr, "the sensors are of another robot");
     rows_.push_back({reading, sensor.gain, sensor.shift, sensed});
   };
-  const auto& all = supgs_.sensors[to_index(leg)];
-  for (std::size_t s = 0; s < all.size(); ++s) read(all[s], sensed_.row(static_cast<int>(s)));
-  if (!cosines_.empty()) read(supgs_.loads[to_index(leg)], load_.row(0));
+  for (int leg = 0; leg < parked_.legs(); ++leg) {
+    const auto& all = supgs_.sensors[to_index(leg)];
+    for (std::size_t s = 0; s < all.size(); ++s)
+      read(all[s], sensed_.row(static_cast<int>(s)) + index(leg, 0));
+    if (!cosines_.empty()) read(supgs_.loads[to_index(leg)], load_.row(0) + index(leg, 0));
+  }
   if (!rows_.empty()) run_sensed(rows_, lanes_);
 }
 
-/// How much each level of each sensor says.
-void ModulatedSupgBatch::weigh_levels() {
-  const int lanes = lanes_, sensors = parked_.modulation().sensors();
-  for (int s = 0, channel = 0; s < sensors; ++s)
-    for (const float level : reading_levels) {
-      const float* const sensed = sensed_.row(s);
-      float* const weights = weights_.row(channel++);
-      for (int lane = 0; lane < lanes; ++lane) weights[lane] = weight_of_level(sensed[lane], level);
-    }
-}
-
-void ModulatedSupgBatch::set_rates(int leg) {
-  set_sensed_rates(leg);
-  if (!cosines_.empty()) hold_by_load(leg);
+void ModulatedSupgBatch::set_rates() {
+  set_sensed_rates();
+  if (!cosines_.empty()) hold_by_load();
 }
 
 /// ρ = Σ a s, limited to ± 1.
-void ModulatedSupgBatch::set_sensed_rates(int leg) {
+void ModulatedSupgBatch::set_sensed_rates() {
   const int sensors = parked_.modulation().sensors();
   if (supgs_.settings.modulation.rate <= 0.0 || sensors == 0) {
     if (!cosines_.empty()) std::ranges::fill(advance_, parts_per_tick);
     return;
   }
-  run_rates(rates_.row(leg * sensors), sensed_.data(), sensed_.stride(), sensors, advance_.data(), lanes_);
+  run_rates(rates_.data(), sensed_.data(), sensed_.stride(), sensors, advance_.data(), count());
 }
 
 /// Takes σ n cos 2πφ ticks off each advance.
-void ModulatedSupgBatch::hold_by_load(int leg) {
+void ModulatedSupgBatch::hold_by_load() {
   const auto strength = static_cast<float>(supgs_.settings.modulation.load_feedback);
   const float* const load = load_.row(0);
-  const std::int32_t* const timer = timers(leg);
-  for (int lane = 0; lane < lanes_; ++lane) {
-    std::int32_t& advance = advance_[to_index(lane)];
-    advance = held_advance(advance, strength * load[lane],
-                           cosines_[to_index(std::max(timer[lane], 0) >> parts_bits)]);
-  }
+  for (std::size_t i = 0; i < advance_.size(); ++i)
+    advance_[i] = held_advance(advance_[i], strength * load[i],
+                               cosines_[to_index(std::max(timer_[i], 0) >> parts_bits)]);
 }
 
-void ModulatedSupgBatch::update_timers(int leg, const float* contact, const std::int32_t* by_chance) {
-  const std::size_t first = index(leg, 0);
+void ModulatedSupgBatch::update_timers(const float* contact) {
   const TimerLanes lanes{.contact = contact,
-                         .by_chance = by_chance,
-                         .first_timer = first_timer_.data() + first,
-                         .timer = timer_.data() + first,
-                         .airborne = airborne_ticks_.data() + first,
-                         .wait = wait_ticks_.data() + first,
-                         .fired = triggered_.data() + first};
-  const bool fired = run_parts(rules_, advance_.data(), lanes, continued_.data() + first,
-                               refractory_left_.data() + first, lanes_);
-  if (fired) pull(leg);
+                         .by_chance = random_ ? random_->advance() : no_chance_.data(),
+                         .first_timer = first_timer_.data(),
+                         .timer = timer_.data(),
+                         .airborne = airborne_ticks_.data(),
+                         .wait = wait_ticks_.data(),
+                         .fired = triggered_.data()};
+  if (run_parts(rules_, advance_.data(), lanes, continued_.data(), refractory_left_.data(), count())) pull();
 }
 
 /// Moves the timers that were triggered.
-void ModulatedSupgBatch::pull(int leg) {
-  for (int lane = 0; lane < lanes_; ++lane) {
-    const std::size_t i = index(leg, lane);
+void ModulatedSupgBatch::pull() {
+  for (std::size_t i = 0; i < timer_.size(); ++i)
     if (triggered_[i] != 0) timer_[i] = reset_timer(timer_[i], start_, period_, reset_share_);
-  }
 }
 
-/// The targets of the lanes from `first` to `end`.
-void ModulatedSupgBatch::interpolate(int leg, const std::int32_t* timers, int first, int end,
-                                     float* targets_rad) const {
+/// The targets of those from `first` to `end`, legs and lanes as everywhere.
+void ModulatedSupgBatch::interpolate(const std::vector<std::int32_t>& timers, int first, int end,
+                                     std::vector<float>& targets_rad) const {
   const Modulation& modulation = parked_.modulation();
   const LaneRows& channels = by_reading_ ? weights_ : sensed_;
   run_targets({.tables = tables_.data(),
-               .first_entry = leg * modulation.entries(),
                .stride_bits = modulation.stride_bits(),
                .width = modulation.width(),
                .channels = shapes_ ? modulation.channels() : 0,
                .says = channels.data(),
                .says_stride = channels.stride()},
-              timers, first, end, lanes_, targets_rad);
+              timers.data(), first, end, count(), targets_rad.data());
 }
 
-void ModulatedSupgBatch::write_targets(int leg, LaneArray& targets_rad) {
-  const std::size_t first = index(leg, 0);
-  float* const continued = continued_rad_.data();
-  float* const present = present_rad_.data();
-  interpolate(leg, (smoother_ ? continued_ : timer_).data() + first, 0, lanes_, continued);
+void ModulatedSupgBatch::write_targets(LaneArray& targets_rad) {
+  interpolate(smoother_ ? continued_ : timer_, 0, count(), continued_rad_);
   if (smoother_) {
-    for (int lane = 0; lane < lanes_; ++lane)
-      jumped_[to_index(lane)] = bits_if(timer_[first + to_index(lane)] != continued_[first + to_index(lane)]);
-    std::copy_n(continued, parked_.types() * lanes_, present);
-    for (int lane = 0; lane < lanes_; ++lane)
-      if (jumped_[to_index(lane)] != 0) interpolate(leg, timer_.data() + first, lane, lane + 1, present);
+    present_rad_ = continued_rad_;
+    for (std::size_t i = 0; i < jumped_.size(); ++i) jumped_[i] = bits_if(timer_[i] != continued_[i]);
+    for (int i = 0; i < count(); ++i)
+      if (jumped_[to_index(i)] != 0) interpolate(timer_, i, i + 1, present_rad_);
+    reshape(present_rad_.data());
   }
+  reshape(continued_rad_.data());
+  limit(targets_rad);
+  if (smoother_) smooth(targets_rad);
+  targets_are_set(targets_rad);
+}
+
+/// To the joints' ranges; into what is smoothed, if that is to be.
+void ModulatedSupgBatch::limit(LaneArray& targets_rad) {
   limited_.clear();
-  for (int type = 0; type < parked_.types(); ++type)
-    limit_joint(leg * parked_.types() + type, continued + type * lanes_, present + type * lanes_,
-                targets_rad);
-  run_limits(limited_, lanes_);
-  for (int type = 0; type < parked_.types(); ++type)
-    end_joint(leg * parked_.types() + type, continued + type * lanes_, present + type * lanes_, targets_rad);
-}
-
-/// Changes the targets of a joint, and what is to be limited to its range.
-void ModulatedSupgBatch::limit_joint(int row, float* continued_rad, float* present_rad,
-                                     LaneArray& targets_rad) {
-  const int joint = supgs_.joints.of_legs[to_index(row)];
-  if (joint < 0) return;
-  const auto [lower_rad, upper_rad] = limits_rad_[to_index(row)];
-  reshape(row, continued_rad);
-  limited_.push_back(
-      {continued_rad, lower_rad, upper_rad, smoother_ ? continued_rad : targets_rad.row(joint)});
-  if (!smoother_) return;
-  reshape(row, present_rad);
-  limited_.push_back({present_rad, lower_rad, upper_rad, present_rad});
-}
-
-/// Smooths the targets of a joint.
-void ModulatedSupgBatch::end_joint(int row, const float* continued_rad, const float* present_rad,
-                                   LaneArray& targets_rad) {
-  const int joint = supgs_.joints.of_legs[to_index(row)];
-  if (joint < 0) return;
-  float* const targets = targets_rad.row(joint);
-  if (smoother_) {
-    const auto [lower_rad, upper_rad] = limits_rad_[to_index(row)];
-    start_filters(row, present_rad);
-    smoother_->smooth(row, continued_rad, present_rad, jumped_.data(), lower_rad, upper_rad, targets);
+  for (std::size_t supg = 0; supg < limits_rad_.size(); ++supg) {
+    const int joint = supgs_.joints.of_legs[supg];
+    if (joint < 0) continue;
+    const auto [lower_rad, upper_rad] = limits_rad_[supg];
+    const std::size_t at = row(static_cast<int>(supg));
+    float* const continued_rad = continued_rad_.data() + at;
+    limited_.push_back(
+        {continued_rad, lower_rad, upper_rad, smoother_ ? continued_rad : targets_rad.row(joint)});
+    if (!smoother_) continue;
+    float* const present_rad = present_rad_.data() + at;
+    limited_.push_back({present_rad, lower_rad, upper_rad, present_rad});
   }
-  end_target(row, targets);
+  run_limits(limited_, lanes_);
+}
+
+void ModulatedSupgBatch::smooth(LaneArray& targets_rad) {
+  for (int supg = 0; supg < static_cast<int>(limits_rad_.size()); ++supg) {
+    const int joint = joint_of(supg);
+    if (joint < 0) continue;
+    const auto [lower_rad, upper_rad] = limits_rad_[to_index(supg)];
+    const float* const present_rad = present_rad_.data() + row(supg);
+    start_filters(supg, present_rad);
+    smoother_->smooth(supg, continued_rad_.data() + row(supg), present_rad,
+                      jumped_.data() + index(supg / parked_.types(), 0), lower_rad, upper_rad,
+                      targets_rad.row(joint));
+  }
 }
 
 /// In a lane's first tick its filters start at rest where the target is.
-void ModulatedSupgBatch::start_filters(int row, const float* present_rad) {
+void ModulatedSupgBatch::start_filters(int supg, const float* present_rad) {
   for (int lane = 0; lane < lanes_; ++lane)
-    if (fresh_[to_index(lane)] != 0) smoother_->load(row, lane, present_rad[lane]);
+    if (fresh_[to_index(lane)] != 0) smoother_->load(supg, lane, present_rad[lane]);
 }
 
 std::vector<std::string> ModulatedSupgBatch::state_names() const {

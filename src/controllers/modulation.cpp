@@ -126,7 +126,7 @@ Modulation::Modulation(int legs, int types, int period_ticks, int sensors, int c
       channels_(channels),
       width_((types + 3) / 4 * 4),
       stride_bits_(static_cast<int>(std::bit_width(static_cast<unsigned>((1 + channels) * width_ - 1)))),
-      values_(to_index(legs * (period_ticks + 3)) * stride()),
+      values_(1, legs * (period_ticks + 3) << stride_bits_),
       rates_(to_index(legs * sensors)) {}
 
 std::int32_t reset_timer(std::int32_t timer, std::int32_t start, std::int32_t period, std::int32_t share) {

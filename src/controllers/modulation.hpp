@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/lane_rows.hpp"
 #include "amble/controllers/sensing.hpp"
 #include "amble/controllers/supg_settings.hpp"
 #include "amble/cppn/network.hpp"
@@ -89,7 +90,8 @@ class Modulation {
   }
 
   int period_ticks_, sensors_, channels_, width_, stride_bits_;
-  std::vector<float> values_, rates_;
+  LaneRows values_;  ///< one row, which begins on a cache line
+  std::vector<float> rates_;
 };
 
 /// Timers of modulated SUPGs count in parts of a tick, so that they add up exactly.

@@ -21,7 +21,7 @@ SupgParameters::SupgParameters(int legs, int types, int period_ticks)
       types_(types),
       period_ticks_(period_ticks),
       offset_ticks_(static_cast<std::size_t>(legs), 1),
-      targets_rad_(static_cast<std::size_t>(legs * (period_ticks + 2) * types)) {}
+      targets_rad_(static_cast<std::size_t>(legs * (period_ticks + 2) * types + 3)) {}
 
 namespace {
 

@@ -48,7 +48,7 @@ class SupgParameters : public Parameters {
   int legs_, types_, period_ticks_;
   std::vector<int> offset_ticks_;
   std::vector<float> targets_rad_;  ///< by leg, timer (from `stopped` on) and type: what a leg needs in one
-                                    ///< tick lies together
+                                    ///< tick lies together; 3 more behind them, to be read four at a time
 };
 
 /// The same with what sensors change, which begins with the same targets.

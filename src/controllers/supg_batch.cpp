@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/controllers/supg_kernel.hpp"
+#include "amble/controllers/supg_targets.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
@@ -17,7 +18,7 @@ RandomTriggers::RandomTriggers(int period_ticks, int legs, int lanes)
       lanes_(lanes),
       left_ticks_(to_index(legs * lanes)),
       number_(to_index(legs * lanes)),
-      masks_(to_index(lanes)) {
+      masks_(to_index(legs * lanes)) {
   for (int lane = 0; lane < lanes; ++lane) load(lane);
 }
 
@@ -29,12 +30,11 @@ void RandomTriggers::load(int lane) {
   }
 }
 
-const std::int32_t* RandomTriggers::advance(int leg) {
-  for (int lane = 0; lane < lanes_; ++lane) {
-    const std::size_t i = to_index(leg * lanes_ + lane);
+const std::int32_t* RandomTriggers::advance() {
+  for (std::size_t i = 0; i < masks_.size(); ++i) {
     const bool triggered = --left_ticks_[i] == 0;
-    masks_[to_index(lane)] = -static_cast<std::int32_t>(triggered);
-    if (triggered) left_ticks_[i] = gap_ticks(leg, ++number_[i]);
+    masks_[i] = -static_cast<std::int32_t>(triggered);
+    if (triggered) left_ticks_[i] = gap_ticks(static_cast<int>(i) / lanes_, ++number_[i]);
   }
   return masks_.data();
 }
@@ -81,13 +81,17 @@ SupgBatch::SupgBatch(const SupgSettings& settings, double timestep_s, std::vecto
   tables_.resize(size);
   for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})
     values->resize(size);
-  no_chance_.resize(static_cast<std::size_t>(lanes));
+  no_chance_.resize(size);
   if (settings.trigger == Trigger::random) random_.emplace(period_ticks_, parked_.legs(), lanes);
   if (settings.seam.smooths()) {
     smoother_.emplace(settings.seam, timestep_s, static_cast<int>(joints_.of_legs.size()), lanes);
-    for (auto* const values : {&continued_, &jumped_}) values->resize(to_index(lanes));
-    for (auto* const values : {&continued_rad_, &present_rad_}) values->resize(to_index(lanes));
-    continued_tables_.resize(to_index(lanes));
+    for (auto* const values : {&continued_, &jumped_}) values->resize(size);
+    continued_rad_ = present_rad_ = LaneRows(static_cast<int>(joints_.of_legs.size()), lanes);
+    for (const int joint : joints_.of_legs) {
+      const JointRange range = joint < 0 ? JointRange{} : joints_.ranges[to_index(joint)];
+      limits_rad_.emplace_back(range.at(0.0), range.at(1.0));
+    }
+    continued_tables_.resize(size);
   }
   for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
 }
@@ -126,95 +130,82 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
               "touch must be legs × lanes");
   AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
   if (contact_) contact_->update(sensors);
-  for (int leg = 0; leg < parked_.legs(); ++leg) {
-    const std::int32_t* const by_chance = random_ ? random_->advance(leg) : no_chance_.data();
-    if (smoother_) continue_timers(leg);
-    update_timers(leg, contact_ ? contact_->row(leg) : sensors.touch.row(leg), by_chance);
-    timers_are_set(leg);
-    if (smoother_)
-      write_smoothed(leg, targets_rad);
-    else
-      write_targets(leg, targets_rad);
-  }
+  if (smoother_) continue_timers();
+  update_timers(contact_ ? contact_->row(0) : sensors.touch.row(0));
+  for (int leg = 0; leg < parked_.legs(); ++leg) timers_are_set(leg);
+  if (smoother_)
+    write_smoothed(targets_rad);
+  else
+    write_targets(targets_rad);
   for (const auto& [joint, target_rad] : joints_.others)
     std::fill_n(targets_rad.row(joint), lanes_, target_rad);
   if (contact_) contact_->targets(targets_rad);
 }
 
-void SupgBatch::update_timers(int leg, const float* touch, const std::int32_t* by_chance) {
-  const std::size_t first = index(leg, 0);
+void SupgBatch::update_timers(const float* touch) {
   const TimerRules rules{.period = period_ticks_,
                          .end_of_cycle = end_of_cycle_,
                          .airborne_needed = airborne_ticks_needed_,
                          .by_touch = by_touch_};
   run_ticks(rules, start_tick_,
             {.contact = touch,
-             .by_chance = by_chance,
-             .first_timer = first_timer_.data() + first,
-             .timer = timer_.data() + first,
-             .airborne = airborne_ticks_.data() + first,
-             .wait = wait_ticks_.data() + first,
-             .fired = triggered_.data() + first},
-            lanes_);
+             .by_chance = random_ ? random_->advance() : no_chance_.data(),
+             .first_timer = first_timer_.data(),
+             .timer = timer_.data(),
+             .airborne = airborne_ticks_.data(),
+             .wait = wait_ticks_.data(),
+             .fired = triggered_.data()},
+            parked_.legs() * lanes_);
 }
 
-void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
-  const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
-  const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
-  const std::int32_t* const timer = timer_.data() + index(leg, 0);
-  const float* const* const tables = tables_.data() + index(leg, 0);
-  for (std::ptrdiff_t type = 0; type < types; ++type) {
-    const int joint = joints_.of_legs[to_index(leg * types + type)];
-    if (joint < 0) continue;
-    float* const row = targets_rad.row(joint);
-    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
-      row[lane] = tables[lane][from + timer[lane] * types + type];
-  }
+void SupgBatch::write_targets(LaneArray& targets_rad) {
+  rows_.clear();
+  for (const int joint : joints_.of_legs) rows_.push_back(joint < 0 ? nullptr : targets_rad.row(joint));
+  run_entries({.tables = tables_.data(), .timers = timer_.data(), .to = rows_}, parked_.types(), lanes_);
 }
 
-void SupgBatch::continue_timers(int leg) {
-  const std::size_t first = index(leg, 0);
-  const std::int32_t* const timer = timer_.data() + first;
-  const std::int32_t* const wait = wait_ticks_.data() + first;
-  const std::int32_t* const first_timer = first_timer_.data() + first;
-  std::int32_t* const continued = continued_.data();
+void SupgBatch::continue_timers() {
   const std::int32_t period = period_ticks_, phase = mask(offset_ == Offset::phase);
-  std::copy_n(tables_.data() + first, lanes_, continued_tables_.data());
-  for (int lane = 0; lane < lanes_; ++lane) {
-    const std::int32_t next =
-        select(mask(timer[lane] == stopped), stopped, std::min(timer[lane] + 1, period));
-    continued[lane] = select(mask(wait[lane] == 0) & phase, first_timer[lane], next);
+  if (std::exchange(plays_others_, false)) continued_tables_ = tables_;
+  for (std::size_t i = 0; i < timer_.size(); ++i) {
+    const std::int32_t next = select(mask(timer_[i] == stopped), stopped, std::min(timer_[i] + 1, period));
+    continued_[i] = select(mask(wait_ticks_[i] == 0) & phase, first_timer_[i], next);
   }
 }
 
-void SupgBatch::write_smoothed(int leg, LaneArray& targets_rad) {
-  const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
-  const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
-  const std::int32_t* const timer = timer_.data() + index(leg, 0);
-  const std::int32_t* const continued = continued_.data();
-  std::int32_t* const jumped = jumped_.data();
-  const float* const* const tables = tables_.data() + index(leg, 0);
-  const float* const* const tables_before = continued_tables_.data();
-  std::int32_t any = 0;
-  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    jumped[lane] = mask(timer[lane] != continued[lane]) | mask(tables[lane] != tables_before[lane]);
-    any |= jumped[lane];
-  }
-  for (std::ptrdiff_t type = 0; type < types; ++type) {
-    const std::ptrdiff_t row = leg * types + type;
-    const int joint = joints_.of_legs[to_index(row)];
-    if (joint < 0) continue;
-    float* const continued_rad = continued_rad_.data();
-    float* const present_rad = present_rad_.data();
-    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
-      continued_rad[lane] = tables_before[lane][from + continued[lane] * types + type];
-    if (any != 0)
-      for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
-        present_rad[lane] = tables[lane][from + timer[lane] * types + type];
-    const JointRange& range = joints_.ranges[to_index(joint)];
-    smoother_->smooth(static_cast<int>(row), continued_rad, any != 0 ? present_rad : continued_rad, jumped,
-                      range.at(0.0), range.at(1.0), targets_rad.row(joint));
-  }
+void SupgBatch::find_jumps() {
+  for (std::size_t i = 0; i < jumped_.size(); ++i) jumped_[i] = mask(timer_[i] != continued_[i]);
+  if (!plays_others_) return;
+  for (std::size_t i = 0; i < jumped_.size(); ++i) jumped_[i] |= mask(tables_[i] != continued_tables_[i]);
+}
+
+void SupgBatch::look_up_both() {
+  const int types = parked_.types();
+  rows_.clear();
+  for (int supg = 0; supg < parked_.legs() * types; ++supg) rows_.push_back(continued_rad_.row(supg));
+  run_entries({.tables = continued_tables_.data(), .timers = continued_.data(), .to = rows_}, types, lanes_);
+  present_rad_ = continued_rad_;
+  for (int leg = 0; leg < parked_.legs(); ++leg)
+    for (int lane = 0; lane < lanes_; ++lane) {
+      const std::size_t i = index(leg, lane);
+      if (jumped_[i] == 0) continue;
+      const float* const entry = tables_[i] + static_cast<std::ptrdiff_t>(timer_[i]) * types;
+      for (int type = 0; type < types; ++type) present_rad_.at(leg * types + type, lane) = entry[type];
+    }
+}
+
+void SupgBatch::write_smoothed(LaneArray& targets_rad) {
+  find_jumps();
+  // All rows before any is smoothed: what has just been stored in pieces cannot be loaded as a whole.
+  look_up_both();
+  for (int leg = 0, supg = 0; leg < parked_.legs(); ++leg)
+    for (int type = 0; type < parked_.types(); ++type, ++supg) {
+      const int joint = joints_.of_legs[to_index(supg)];
+      if (joint < 0) continue;
+      const auto [lower_rad, upper_rad] = limits_rad_[to_index(supg)];
+      smoother_->smooth(supg, continued_rad_.row(supg), present_rad_.row(supg),
+                        jumped_.data() + index(leg, 0), lower_rad, upper_rad, targets_rad.row(joint));
+    }
 }
 
 std::vector<std::string> SupgBatch::state_names() const {

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "amble/controllers/lane_rows.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/controllers/supg_contact.hpp"
 
@@ -18,9 +20,9 @@ class RandomTriggers {
   RandomTriggers(int period_ticks, int legs, int lanes);
 
   void load(int lane);
-  /// Goes on by a tick. By lane: all bits if the leg is triggered in this tick, else 0. Valid until the next
-  /// call.
-  const std::int32_t* advance(int leg);
+  /// Goes on by a tick. Leg by leg, over the lanes: all bits if the leg is triggered in this tick, else 0.
+  /// Valid until the next call.
+  const std::int32_t* advance();
 
  private:
   /// Ticks before a leg's trigger of this number, 0 for the first, after the one before it; at least 1.
@@ -29,7 +31,7 @@ class RandomTriggers {
   int period_ticks_, legs_, lanes_;
   std::vector<std::int32_t> left_ticks_;  ///< until the next trigger; leg by leg, over the lanes
   std::vector<std::uint32_t> number_;     ///< of the next trigger
-  std::vector<std::int32_t> masks_;       ///< by lane
+  std::vector<std::int32_t> masks_;       ///< leg by leg, over the lanes
 };
 
 /// SUPG controllers stepping together; what they do is documented at SupgArchitecture. Each quantity is
@@ -48,7 +50,7 @@ class SupgBatch : public Batch {
   std::vector<std::size_t> events() const override;
 
  protected:
-  /// For batches that change what a leg plays: called in each tick for each leg when its timers are set and
+  /// For batches that change what a leg plays: called in each tick for each leg when all timers are set and
   /// before its targets are written. play() and begin() may be called then.
   virtual void timers_are_set(int /*leg*/) {}
   const std::vector<std::string>& leg_names() const { return leg_names_; }
@@ -61,7 +63,8 @@ class SupgBatch : public Batch {
   }
   /// From now on the leg plays the patterns of `supg`, its timer as it is.
   void play(int leg, int lane, const SupgParameters& supg) {
-    tables_[index(leg, lane)] = supg.targets_rad(0, 0);
+    tables_[index(leg, lane)] = supg.targets_rad(leg, 0);
+    plays_others_ = true;
   }
   /// The same, and the leg begins as at the start of a trial.
   void begin(int leg, int lane, const SupgParameters& supg);
@@ -72,13 +75,16 @@ class SupgBatch : public Batch {
   std::int32_t after(std::int32_t timer) const {
     return timer + 1 >= period_ticks_ ? end_of_cycle_ : timer + 1;
   }
-  /// `by_chance`: by lane, all bits or 0.
-  void update_timers(int leg, const float* touch, const std::int32_t* by_chance);
-  void write_targets(int leg, LaneArray& targets_rad) const;
+  void update_timers(const float* touch);
+  void write_targets(LaneArray& targets_rad);
   /// What timers will be without a jump; before update_timers().
-  void continue_timers(int leg);
+  void continue_timers();
   /// The same as write_targets(), smoothed.
-  void write_smoothed(int leg, LaneArray& targets_rad);
+  void write_smoothed(LaneArray& targets_rad);
+  /// Leg by leg, over the lanes: whose timers or tables jumped.
+  void find_jumps();
+  /// Where patterns would be without a jump, and where they are.
+  void look_up_both();
 
   Offset offset_;
   std::int32_t start_tick_, period_ticks_;
@@ -90,22 +96,26 @@ class SupgBatch : public Batch {
   SupgParameters parked_;
   int lanes_;
 
-  std::vector<const float*>
-      tables_;  ///< leg by leg, over the lanes: its controller's targets of leg 0 at timer 0
-  std::vector<std::int32_t> timer_;           ///< ticks, or SupgParameters::stopped
+  std::vector<const float*> tables_;  ///< leg by leg, over the lanes: its controller's targets at timer 0
+  std::vector<std::int32_t> timer_;   ///< ticks, or SupgParameters::stopped
   std::vector<std::int32_t> airborne_ticks_;  ///< ticks in a row for which the foot has been off the ground
   std::vector<std::int32_t>
       wait_ticks_;  ///< ticks before the timer starts for the first time; −1 once it has
   std::vector<std::int32_t> first_timer_;  ///< timer value of that start
   std::vector<std::int32_t> triggered_;    ///< 1 if a trigger fired in this tick
-  std::vector<std::int32_t> no_chance_;    ///< by lane: 0
+  std::vector<std::int32_t> no_chance_;    ///< 0
   std::optional<RandomTriggers> random_;
 
   std::optional<ContactEstimate> contact_;  ///< none: contacts are touches
   std::optional<SeamSmoother> smoother_;
-  std::vector<std::int32_t> continued_, jumped_;    ///< by lane, of the leg in hand: a timer, and a mask
-  std::vector<float> continued_rad_, present_rad_;  ///< by lane, of the joint in hand: its pattern there
-  std::vector<const float*> continued_tables_;  ///< by lane, of the leg in hand: its table before this tick
+  // Leg by leg, over the lanes.
+  std::vector<std::int32_t> continued_;         ///< a timer
+  std::vector<std::int32_t> jumped_;            ///< a mask
+  std::vector<const float*> continued_tables_;  ///< its table before this tick
+  bool plays_others_ = true;                    ///< whether some tables may not be those before this tick
+  LaneRows continued_rad_, present_rad_;        ///< as SupgJoints::of_legs: patterns there
+  std::vector<std::pair<float, float>> limits_rad_;  ///< the same
+  std::vector<float*> rows_;                         ///< the same: scratch
 };
 
 }  // namespace amble::controllers

@@ -31,6 +31,7 @@ class ContactEstimate {
   void update(const robot::SensorFrame& sensors);
   /// The targets of this tick.
   void targets(const LaneArray& targets_rad);
+  /// The rows of all legs follow each other, as those of SensorFrame::touch.
   const float* row(int leg) const { return contact_.row(leg); }
   int legs() const { return static_cast<int>(joints_.size()); }
 
@@ -44,7 +45,7 @@ class ContactEstimate {
   std::vector<std::vector<int>> joints_;
   int lanes_;
   float begins_, ends_, per_tick_squared_;
-  LaneRows contact_;           ///< leg by leg
+  LaneArray contact_;          ///< leg by leg
   LaneRows number_;            ///< of one leg: scratch
   LaneArray targets_rad_;      ///< of the last tick; empty before the first
   std::vector<int> tick_;      ///< lane by lane: of the trial, from 0

@@ -1,8 +1,6 @@
 #include "amble/controllers/supg_kernel.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "amble/core/simd_targets.hpp"
 
@@ -10,24 +8,12 @@
 #define HWY_TARGET_INCLUDE "amble/controllers/supg_kernel.cpp"
 #include <hwy/foreach_target.h>
 
-#include "amble/core/simd-inl.hpp"
+#include "amble/controllers/for_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::controllers::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using simd::HWY_NAMESPACE::Floats;
-using simd::HWY_NAMESPACE::width;
-using OneFloat = hn::CappedTag<float, 1>;  // for lanes that are left over
-
-/// work(tag, lane) for so many lanes at a time as the tag has.
-template <typename Work>
-HWY_INLINE void for_lanes(int count, Work work) {
-  int lane = 0;
-  for (; lane + width <= count; lane += width) work(Floats(), lane);
-  for (; lane < count; ++lane) work(OneFloat(), lane);
-}
 
 /// Within a range; `lower` for what is not a number.
 template <typename D, typename Vec = hn::Vec<D>>
@@ -129,6 +115,18 @@ void sensed(std::span<const SensedRow> rows, int count) {
   }
 }
 
+void weights(const float* sensed, std::size_t stride, int rows, float* weights, int count) {
+  for (int row = 0; row < rows; ++row, sensed += stride)
+    for (const float level : reading_levels) {
+      for_lanes(count, [&](auto f, int lane) HWY_ATTR {
+        const auto s = hn::LoadU(f, sensed + lane), away = hn::Sub(hn::Add(s, s), hn::Set(f, level + level)),
+                   near = hn::Sub(hn::Set(f, 1.0f), hn::Abs(away));
+        hn::StoreU(hn::IfThenElseZero(hn::Gt(near, hn::Zero(f)), near), f, weights + lane);
+      });
+      weights += stride;
+    }
+}
+
 void rates(const float* rates, const float* sensed, std::size_t stride, int rows, std::int32_t* advance,
            int count) {
   for_lanes(count, [&](auto f, int lane) HWY_ATTR {
@@ -150,126 +148,6 @@ void pulled_rates(const PulledRates& rates, std::int32_t* advance, int count) {
     }
     write_advance(f, rho, advance + lane);
   });
-}
-
-/// Four numbers that lie together, of as many types of joints: a type that GCC and Clang have for every
-/// processor.
-using Four = float __attribute__((vector_size(16)));
-
-HWY_INLINE Four four_at(const float* from) {
-  Four four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-
-/// Where sixteen lanes' timers are in their tables: from there to an entry, and how far on the way to the
-/// next.
-struct Places {
-  static constexpr int most = 16;
-  std::int32_t at[most];
-  float share[most];
-
-  HWY_INLINE Places(const TargetTables& tables, const std::int32_t* timers, int count) {
-    for_lanes(count, [&](auto f, int lane) HWY_ATTR {
-      const hn::RebindToSigned<decltype(f)> i;
-      const auto timer = hn::LoadU(i, timers + lane), one = hn::Set(i, 1);
-      const auto stands = hn::Lt(timer, hn::Zero(i));
-      const auto entry = hn::IfThenZeroElse(stands, hn::Add(hn::ShiftRight<parts_bits>(timer), one));
-      const auto part = hn::IfThenZeroElse(stands, hn::And(timer, hn::Set(i, parts_per_tick - 1)));
-      hn::StoreU(hn::Add(entry, hn::Set(i, tables.first_entry)), i, at + lane);
-      hn::StoreU(hn::Mul(hn::ConvertTo(f, part), hn::Set(f, 1.0f / parts_per_tick)), f, share + lane);
-    });
-  }
-};
-
-HWY_INLINE Four between(const float* from, const float* next, float share) {
-  const Four here = four_at(from);
-  return here + share * (four_at(next) - here);
-}
-
-/// The measures of tables with `known` channels and at most four types of joints, or of any if that is
-/// negative.
-template <int known>
-struct Measures {
-  HWY_INLINE explicit Measures(const TargetTables&) {}
-  static constexpr int channels = known, width = 4, stride_bits = std::bit_width(4u * (known + 1u) - 1u);
-};
-template <>
-struct Measures<-1> {
-  HWY_INLINE explicit Measures(const TargetTables& tables)
-      : channels(tables.channels), width(tables.width), stride_bits(tables.stride_bits) {}
-  int channels, width, stride_bits;
-};
-
-/// Four types' targets of a lane.
-template <typename Of>
-HWY_INLINE Four target_at(const Of& of, const float* entry, float share, const float* says,
-                          std::size_t says_stride) {
-  const std::size_t stride = std::size_t{1} << of.stride_bits;
-  Four y = between(entry, entry + stride, share);
-  for (int channel = 0; channel < of.channels; ++channel, says += says_stride) {
-    entry += of.width;
-    y += between(entry, entry + stride, share) * *says;
-  }
-  return y;
-}
-
-/// Four lanes' numbers become four types' numbers.
-HWY_INLINE void write_transposed(Four a, Four b, Four c, Four d, std::ptrdiff_t lanes, float* to) {
-  const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-             ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5),
-             cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  const Four rows[4] = {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
-                        __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
-                        __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
-                        __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)};
-  for (int i = 0; i < 4; ++i) std::memcpy(to + i * lanes, &rows[i], sizeof rows[i]);
-}
-
-template <int known>
-HWY_INLINE void targets_of(const TargetTables& tables, const std::int32_t* timers, int first, int end,
-                           std::ptrdiff_t lanes, float* targets_rad) {
-  const Measures<known> of(tables);
-  for (; first < end; first += Places::most) {
-    const int some = std::min(Places::most, end - first);
-    const Places places(tables, timers + first, some);
-    const auto target = [&](int lane, int type) HWY_ATTR {
-      const auto from = static_cast<std::ptrdiff_t>(places.at[lane]) << of.stride_bits;
-      const float* const says = of.channels > 0 ? tables.says + first + lane : nullptr;
-      return target_at(of, tables.tables[first + lane] + from + type, places.share[lane], says,
-                       tables.says_stride);
-    };
-    for (int type = 0; type < of.width; type += 4) {
-      float* const to = targets_rad + type * lanes + first;
-      int lane = 0;
-      for (; lane + 4 <= some; lane += 4)
-        write_transposed(target(lane, type), target(lane + 1, type), target(lane + 2, type),
-                         target(lane + 3, type), lanes, to + lane);
-      for (; lane < some; ++lane) {
-        const Four y = target(lane, type);
-        for (int i = 0; i < 4; ++i) to[i * lanes + lane] = y[i];
-      }
-    }
-  }
-}
-
-void targets(const TargetTables& tables, const std::int32_t* timers, int first, int end, int count,
-             float* targets_rad) {
-  const unsigned used = 4u * static_cast<unsigned>(tables.channels + 1);
-  const bool packed = tables.width == 4 && tables.stride_bits == static_cast<int>(std::bit_width(used - 1u));
-  switch (packed ? tables.channels : -1) {
-    case 0:
-      return targets_of<0>(tables, timers, first, end, count, targets_rad);
-    case 1:
-      return targets_of<1>(tables, timers, first, end, count, targets_rad);
-    case 2:
-      return targets_of<2>(tables, timers, first, end, count, targets_rad);
-    case 3:
-      return targets_of<3>(tables, timers, first, end, count, targets_rad);
-    default:
-      return targets_of<-1>(tables, timers, first, end, count, targets_rad);
-  }
 }
 
 void reshape(const Reshaping& how, float* targets_rad, int count) {
@@ -329,9 +207,9 @@ namespace amble::controllers {
 HWY_EXPORT(ticks);
 HWY_EXPORT(parts);
 HWY_EXPORT(sensed);
+HWY_EXPORT(weights);
 HWY_EXPORT(rates);
 HWY_EXPORT(pulled_rates);
-HWY_EXPORT(targets);
 HWY_EXPORT(reshape);
 HWY_EXPORT(limits);
 HWY_EXPORT(residual);
@@ -350,6 +228,10 @@ void run_sensed(std::span<const SensedRow> rows, int count) {
   HWY_DYNAMIC_DISPATCH(sensed)(rows, count);
 }
 
+void run_weights(const float* sensed, std::size_t stride, int rows, float* weights, int count) {
+  HWY_DYNAMIC_DISPATCH(weights)(sensed, stride, rows, weights, count);
+}
+
 void run_rates(const float* rates, const float* sensed, std::size_t stride, int rows, std::int32_t* advance,
                int count) {
   HWY_DYNAMIC_DISPATCH(rates)(rates, sensed, stride, rows, advance, count);
@@ -357,11 +239,6 @@ void run_rates(const float* rates, const float* sensed, std::size_t stride, int 
 
 void run_pulled_rates(const PulledRates& rates, std::int32_t* advance, int count) {
   HWY_DYNAMIC_DISPATCH(pulled_rates)(rates, advance, count);
-}
-
-void run_targets(const TargetTables& tables, const std::int32_t* timers, int first, int end, int count,
-                 float* targets_rad) {
-  HWY_DYNAMIC_DISPATCH(targets)(tables, timers, first, end, count, targets_rad);
 }
 
 void run_reshape(const Reshaping& how, float* targets_rad, int count) {

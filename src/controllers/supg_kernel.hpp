@@ -45,6 +45,9 @@ struct SensedRow {
 /// LegSensor::sensed() of each.
 void run_sensed(std::span<const SensedRow> rows, int count);
 
+/// weight_of_level() of each row and each of the levels, row by row; `stride` is that of both.
+void run_weights(const float* sensed, std::size_t stride, int rows, float* weights, int count);
+
 /// advance_parts(ρ) by lane, ρ = Σ rate × sensed within ± 1, row by row of both.
 void run_rates(const float* rates, const float* sensed, std::size_t stride, int rows, std::int32_t* advance,
                int count);
@@ -54,18 +57,6 @@ struct PulledRates {
   const float *sum, *sine, *cosine, *sines, *cosines;
 };
 void run_pulled_rates(const PulledRates& rates, std::int32_t* advance, int count);
-
-/// Entries of a leg's tables (Modulation) and what its channels say.
-struct TargetTables {
-  const float* const* tables;  ///< lane by lane
-  std::int32_t first_entry;    ///< of the leg
-  int stride_bits, width, channels;
-  const float* says;  ///< channel by channel
-  std::size_t says_stride;
-};
-/// The targets of the lanes `first` … `end` − 1 at their timers, type by type, `count` lanes each.
-void run_targets(const TargetTables& tables, const std::int32_t* timers, int first, int end, int count,
-                 float* targets_rad);
 
 /// How a joint's targets are changed: y + (y − middle) a + half b, a and b within ± 1.
 struct Reshaping {

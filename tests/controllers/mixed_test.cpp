@@ -261,6 +261,43 @@ TEST(Mixed, WithAllGainsZeroIsTheSupgsAloneToTheBit) {
   }
 }
 
+/// What a batch of smoothed targets says beside one of plain ones, both told the same for some ticks.
+void expect_as_without_seam(const SeamSettings& seam, int ticks) {
+  constexpr int lanes = 17;
+  SupgSettings settings = supg_settings();
+  settings.trigger = Trigger::none;
+  settings.idle = Idle::hold;
+  const MixedArchitecture plain = architecture(settings);
+  settings.seam = seam;
+  const MixedArchitecture smooth = architecture(settings);
+  const auto batch = smooth.make_batch(lanes), expected = plain.make_batch(lanes);
+  Stream stream(74, Purpose::test);
+  std::vector<std::unique_ptr<MixedParameters>> parameters;
+  for (int lane = 0; lane < lanes; ++lane) {
+    parameters.push_back(random_mixed(plain, stream));
+    batch->load(lane, *parameters.back());
+    expected->load(lane, *parameters.back());
+  }
+  auto sensors = frame(lanes);
+  LaneArray targets(joints, lanes), unchanged(joints, lanes);
+  for (int tick = 0; tick < ticks; ++tick) {
+    move_randomly(sensors, stream);
+    batch->step(sensors, targets);
+    expected->step(sensors, unchanged);
+    for (int joint = 0; joint < joints; ++joint)
+      for (int lane = 0; lane < lanes; ++lane)
+        ASSERT_EQ(targets.at(joint, lane), unchanged.at(joint, lane)) << tick << " " << joint;
+  }
+}
+
+TEST(Mixed, WithoutAJumpAResidualChangesNothing) {
+  expect_as_without_seam({.residual_s = 0.03}, 40);
+}
+
+TEST(Mixed, AFilterStartsWhereTheTargetIs) {
+  expect_as_without_seam({.residual_s = 0.03, .filter_s = 0.02}, 1);
+}
+
 /// Leg 1 coupled to leg 0 alone, with strength c.
 struct Coupled {
   explicit Coupled(float c, Offset offset = Offset::phase) : mixed(make(offset)) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/controllers/lane_rows.hpp"
+#include "amble/controllers/supg_targets.hpp"
 #include "amble/core/random.hpp"
 
 namespace amble::controllers {
@@ -43,6 +44,8 @@ class AllKernels {
     rows();
     joints();
     targets();
+    entries();
+    weights();
     return bits_;
   }
 
@@ -129,14 +132,15 @@ class AllKernels {
           const int stride_bits =
               static_cast<int>(std::bit_width(static_cast<unsigned>(width * (channels + 1) - 1))) + room;
           const Floats table = floats(2 * 8 << stride_bits, stream_);
-          const std::vector<const float*> tables(static_cast<std::size_t>(lanes_), table.data());
+          const std::vector<const float*> tables(static_cast<std::size_t>(lanes_),
+                                                 table.data() + (8 << stride_bits));
           const Ints timers = ints(lanes_, -1, 5 * parts_per_tick, stream_);
           LaneRows says(channels, lanes_);
           for (int lane = 0; lane < lanes_; ++lane)
             for (int channel = 0; channel < channels; ++channel)
               says.at(channel, lane) = static_cast<float>(stream_.uniform(-1.0, 1.0));
           Floats y(static_cast<std::size_t>(width * lanes_));
-          run_targets({tables.data(), 8, stride_bits, width, channels, says.data(), says.stride()},
+          run_targets({tables.data(), stride_bits, width, channels, says.data(), says.stride()},
                       timers.data(), 0, lanes_, lanes_, y.data());
           note(y);
           plain(table, timers, says, stride_bits, width, channels, y);
@@ -164,6 +168,42 @@ class AllKernels {
     }
   }
 
+  /// Of two legs with one to five types, of which the first leg lacks one.
+  void entries() {
+    for (int types = 1; types <= 5; ++types) {
+      constexpr int period = 5;
+      const Floats table = floats((period + 2) * types + 3, stream_);
+      const std::vector<const float*> tables(static_cast<std::size_t>(2 * lanes_), table.data() + types);
+      const Ints timers = ints(2 * lanes_, -1, period, stream_);
+      LaneRows rows(2 * types, lanes_);
+      std::vector<float*> to;
+      for (int row = 0; row < 2 * types; ++row) to.push_back(row == types - 1 ? nullptr : rows.row(row));
+      run_entries({.tables = tables.data(), .timers = timers.data(), .to = to}, types, lanes_);
+      for (int row = 0; row < 2 * types; ++row)
+        for (int lane = 0; lane < lanes_; ++lane) {
+          const int timer = timers[static_cast<std::size_t>(row / types * lanes_ + lane)];
+          const float there = table[static_cast<std::size_t>((timer + 1) * types + row % types)];
+          ASSERT_EQ(rows.at(row, lane), row == types - 1 ? 0.0f : there);
+        }
+      note(Floats(rows.data(), rows.data() + rows.stride() * static_cast<std::size_t>(2 * types)));
+    }
+  }
+
+  void weights() {
+    constexpr int levels = static_cast<int>(reading_levels.size());
+    LaneRows sensed(2, lanes_), weights(2 * levels, lanes_);
+    for (int row = 0; row < 2; ++row)
+      for (int lane = 0; lane < lanes_; ++lane)
+        sensed.at(row, lane) = static_cast<float>(static_cast<int>(stream_.below(33)) - 16) / 16.0f;
+    run_weights(sensed.data(), sensed.stride(), 2, weights.data(), lanes_);
+    for (int row = 0; row < 2 * levels; ++row) {
+      const float level = reading_levels[static_cast<std::size_t>(row % levels)];
+      for (int lane = 0; lane < lanes_; ++lane)
+        ASSERT_EQ(weights.at(row, lane), weight_of_level(sensed.at(row / levels, lane), level));
+      note(Floats(weights.row(row), weights.row(row) + lanes_));
+    }
+  }
+
   int lanes_;
   Stream stream_{46, Purpose::test};
   std::vector<std::uint32_t> bits_;
@@ -171,7 +211,7 @@ class AllKernels {
 
 TEST(SupgKernel, WritesTheSameBitsOnEveryInstructionSet) {
   const std::int64_t supported = hwy::SupportedTargets();
-  for (const int lanes : {1, 3, 5, 16, 17, 40}) {
+  for (const int lanes : {1, 3, 5, 16, 17, 40, 100}) {
     hwy::SetSupportedTargetsForTest(HWY_SCALAR);
     const auto expected = AllKernels(lanes).written();
     for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}}) {
