@@ -93,6 +93,8 @@ std::string engine_line(const robot::RobotSpec& robot) {
 
 /// As many as studies/defaults.toml gave the robots of docs/ROBOTS.md.
 constexpr int generations_of_a_minute = 300;
+/// Length of a controller's tick in the presets.
+constexpr double tick_s = 0.01;
 
 /// What a config of a robot on one or two legs has besides: by distance alone the first generations learn to
 /// fall far.
@@ -109,12 +111,14 @@ std::string settings_text(const robot::RobotSpec& robot) {
       "[controller.supg]\n"
       "period_s = {:g}  # hips {:.2g} m over the feet; 1 s where they are {:g} m, by the square root "
       "(Froude)\n"
+      "# trigger_debounce_ticks = {:.0f}  # fewer, longer steps, slower: a foot off the ground for a tenth "
+      "of the period triggers\n"
       "\n"
       "[noise]  # what the preset's pushes and drops are for a robot of that size\n"
       "push_m_s = {:.2g}\n"
       "start_height_m = {:.2g}\n",
-      settings->period_s, settings->leg_height_m, settings->preset_leg_height_m, settings->push_m_s,
-      settings->start_height_m);
+      settings->period_s, settings->leg_height_m, settings->preset_leg_height_m,
+      std::max(1.0, 0.1 * settings->period_s / tick_s), settings->push_m_s, settings->start_height_m);
 }
 
 std::string config_text(const std::string& name, const std::string& engine,
