@@ -157,7 +157,8 @@ export class Network {
     pen.scale(ratio, ratio);
     this.paintLinks(pen);
     pen.globalAlpha = 1;
-    this.nodes.forEach((node, i) => this.paintNode(pen, node, i, width));
+    this.nodes.forEach((node, i) => this.paintNode(pen, node, i));
+    this.nodes.forEach((node, i) => this.paintName(pen, node, i, width)); // above all nodes: narrow pages have some beside names
     for (const [name, right, y] of heads) write(pen, name, right ? width : 0, y, right ? "right" : "left", 600);
   }
 
@@ -173,7 +174,7 @@ export class Network {
     }
   }
 
-  paintNode(pen, node, i, width) {
+  paintNode(pen, node, i) {
     const [x, y] = this.places[i], says = this.says[i], phase = this.phases[i], r = RADIUS;
     const shape = (size) => {
       pen.beginPath();
@@ -193,7 +194,10 @@ export class Network {
     pen.stroke();
     pen.setLineDash([]);
     if (node.role === "joint" && phase >= 0) hand(pen, x, y, r, phase);
-    const outer = node.role === "joint" && node.leg >= 0, right = x > width / 2;
+  }
+
+  paintName(pen, node, i, width) {
+    const [x, y] = this.places[i], outer = node.role === "joint" && node.leg >= 0, right = x > width / 2;
     if (outer) write(pen, node.short, x + (right ? 14 : -14), y, right ? "left" : "right");
     else if (node.role === "sensor") write(pen, node.short.replaceAll("_", " "), x, y + 14.5, "center");
   }
