@@ -12,6 +12,8 @@
 #include "amble/controllers/supg_batch.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
+#include "tests/controllers/linear_cppn.hpp"
+#include "tests/controllers/plain_modulated_leg.hpp"
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
@@ -175,91 +177,6 @@ TEST(ModulatedSupg, WithResetZeroKnowsNoTrigger) {
   }
 }
 
-/// One leg, number by number.
-class PlainLeg {
- public:
-  PlainLeg(const SupgSettings& settings, const ModulatedParameters& parameters, int leg)
-      : settings_(settings), parameters_(parameters), leg_(leg), period_(parameters.period_ticks()) {}
-
-  void tick(bool touching, const std::vector<float>& sensed, float load = 0.0f) {
-    ++tick_;
-    float rho = 0.0f;
-    if (settings_.modulation.rate > 0.0)
-      for (std::size_t s = 0; s < sensed.size(); ++s)
-        rho = rho + parameters_.modulation().rate(leg_, static_cast<int>(s)) * sensed[s];
-    // Another test compares this with 2^ρ.
-    double growth = advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0;
-    if (settings_.modulation.load_feedback > 0.0) {
-      const double phase = std::max(0.0, std::floor(timer)) / period_;
-      const float pull = static_cast<float>(settings_.modulation.load_feedback) * load;
-      const float ticks = pull * static_cast<float>(std::cos(2.0 * std::numbers::pi * phase));
-      growth = std::clamp(growth - std::trunc(static_cast<double>(ticks) * 16384.0) / 16384.0, 0.0, 2.0);
-    }
-    const bool phase = settings_.offset == Offset::phase;
-    const int first_tick = phase ? 1 : parameters_.offset_ticks(leg_) + 1;
-    const bool lands = touching && settings_.trigger != Trigger::none &&
-                       (settings_.trigger == Trigger::level || off_for_ >= settings_.trigger_debounce_ticks);
-    triggered = lands && tick_ > first_tick && rests_ == 0;
-    if (tick_ == first_tick) timer = phase ? parameters_.offset_ticks(leg_) : settings_.start_tick;
-    if ((tick_ > first_tick || (tick_ == first_tick && phase)) && timer >= 0.0) grow(growth);
-    if (triggered) reset();
-    rests_ = triggered ? settings_.modulation.refractory_ticks : std::max(rests_ - 1, 0);
-    off_for_ = touching ? 0 : off_for_ + 1;
-  }
-
-  float target_rad(int type, const std::vector<float>& sensed, const JointRange& range) const {
-    const Modulation& modulation = parameters_.modulation();
-    const double whole = timer < 0.0 ? -1.0 : std::floor(timer);
-    const auto share = static_cast<float>(timer < 0.0 ? 0.0 : timer - whole);
-    const auto read = [&](int group) {
-      const int at = group * modulation.width() + type;
-      const float a = modulation.entry(leg_, static_cast<int>(whole))[at];
-      const float b = modulation.entry(leg_, static_cast<int>(whole) + 1)[at];
-      return a + share * (b - a);
-    };
-    float y = read(0);
-    int channel = 0;
-    for (const float s : sensed)
-      if (settings_.modulation.shape_by == ShapeBy::gain)
-        y = y + read(++channel) * s;
-      else
-        for (const float level : {-1.0f, -0.5f, 0.5f, 1.0f})
-          y = y + read(++channel) * std::max(0.0f, 1.0f - std::fabs(2.0f * s - 2.0f * level));
-    return std::clamp(y, range.at(0.0), range.at(1.0));
-  }
-
-  double timer = -1.0;
-  bool triggered = false;
-
- private:
-  void grow(double growth) {
-    timer = std::min(timer, static_cast<double>(period_)) + growth;
-    if (timer < period_) return;
-    if (settings_.idle == Idle::mid) timer = -1.0;
-    if (settings_.idle == Idle::hold) timer = period_;
-    if (settings_.idle == Idle::wrap) timer -= period_;
-  }
-  void reset() {
-    const double share = std::round(settings_.modulation.reset * 32768.0) / 32768.0,
-                 start = settings_.start_tick;
-    if (share == 0.0) return;
-    if (timer < 0.0) {
-      timer = start;
-      return;
-    }
-    double way = start - timer;
-    if (way <= -0.5 * period_) way += period_;
-    const double parts = std::trunc(way * 16384.0 * share);
-    timer += parts / 16384.0;
-    if (timer >= period_) timer -= period_;
-  }
-
-  SupgSettings settings_;
-  const ModulatedParameters& parameters_;
-  int leg_, period_;
-  int tick_ = 0, off_for_ = 0, rests_ = 0;
-};
-
 TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
   constexpr int period = 13;
   Stream stream(43, Purpose::test);
@@ -282,7 +199,7 @@ TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
     for (const int lanes : {1, 16, 17}) {
       ModulatedSupgBatch batch(supgs(settings), random_modulated(period, 3, stream, levels), lanes);
       std::vector<std::unique_ptr<ModulatedParameters>> parameters;
-      std::vector<std::vector<PlainLeg>> plain(static_cast<std::size_t>(lanes));
+      std::vector<std::vector<PlainModulatedLeg>> plain(static_cast<std::size_t>(lanes));
       for (int lane = 0; lane < lanes; ++lane) {
         parameters.push_back(
             std::make_unique<ModulatedParameters>(random_modulated(period, 3, stream, levels)));
@@ -300,7 +217,7 @@ TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
           batch.state(lane, state);
           for (int leg = 0; leg < legs; ++leg) {
             const auto l = static_cast<std::size_t>(leg);
-            PlainLeg& expected = plain[static_cast<std::size_t>(lane)][l];
+            PlainModulatedLeg& expected = plain[static_cast<std::size_t>(lane)][l];
             std::vector<float> sensed;
             for (const LegSensor& sensor : senses[l])
               sensed.push_back(sensor.sensed(substrate::row_of(sensor.sensor, sensors)[lane]));
@@ -406,84 +323,6 @@ TEST(ModulatedSupg, ALoadedFootHoldsItsTimerBehindThreeQuartersUntilItIsLifted) 
   EXPECT_NE(phase_under(1.0, 0.5f, 2000, false), phase_under(1.0, 0.5f, 2001, false)) << "half is too little";
 }
 
-TEST(ModulatedSupg, ATriggerMovesATimerTheShorterWayRound) {
-  const std::int32_t one = parts_per_tick, period = 100 * one, start = one;
-  EXPECT_EQ(reset_timer(30 * one, start, period, 32768), start);
-  EXPECT_EQ(reset_timer(80 * one + 7, start, period, 32768), start);
-  EXPECT_EQ(reset_timer(-1, start, period, 1), start);
-  EXPECT_EQ(reset_timer(-1, start, period, 0), -1);
-  EXPECT_EQ(reset_timer(41 * one, start, period, 16384), 21 * one);  // half of 40 back
-  EXPECT_EQ(reset_timer(81 * one, start, period, 16384), 91 * one);  // half of 20 on
-  EXPECT_EQ(reset_timer(99 * one, start, period, 24576),
-            0 + one / 2);                                       // three quarters of 2 on, over the end
-  EXPECT_EQ(reset_timer(period, start, period, 32768), start);  // one that is held at the end
-  for (std::int32_t timer = 0; timer <= period; timer += one / 2) {
-    EXPECT_EQ(reset_timer(timer, start, period, 32768), start) << timer;
-    EXPECT_EQ(reset_timer(timer, start, period, 0), timer);
-    const std::int32_t next = reset_timer(timer, start, period, 12345);
-    EXPECT_TRUE(next >= 0 && next < period);
-  }
-}
-
-TEST(ModulatedSupg, GrowsByPowersOfTwoWithinHalfAPart) {
-  for (int i = -1000; i <= 1000; ++i) {
-    const float rho = static_cast<float>(i) / 1000.0f;
-    EXPECT_LE(std::fabs(advance_parts(rho) - 16384.0 * std::exp2(static_cast<double>(rho))), 0.55) << rho;
-  }
-  EXPECT_EQ(advance_parts(-1.0f), 8192);
-  EXPECT_EQ(advance_parts(0.0f), 16384);
-  EXPECT_EQ(advance_parts(1.0f), 32768);
-}
-
-using neat::Activation;
-using neat::NodeKind;
-
-/// Each output is the sum of its weights times the inputs, of which the first is the bias.
-template <std::size_t inputs, std::size_t outputs>
-cppn::Network linear_cppn(const std::array<std::array<double, inputs>, outputs>& weights) {
-  neat::Genome genome;
-  for (std::uint32_t id = 0; id < inputs + outputs; ++id)
-    genome.nodes.push_back({id,
-                            id == 0       ? NodeKind::bias
-                            : id < inputs ? NodeKind::input
-                                          : NodeKind::output,
-                            Activation::linear});
-  for (std::uint32_t out = 0; out < outputs; ++out)
-    for (std::uint32_t in = 0; in < inputs; ++in)
-      genome.links.push_back({static_cast<std::uint32_t>(out * inputs + in), in,
-                              static_cast<std::uint32_t>(inputs + out), weights[out][in]});
-  return {genome, {cppn::Linear::identity, true}};
-}
-
-TEST(ModulatedSupg, DecodesGainsAndRatesAsComputedByHand) {
-  SupgSettings settings;
-  settings.period_s = 0.1;
-  settings.modulation = {.sensors = {"pitch", "touch"}, .rate = 0.5, .shape = 0.8};
-  const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
-  EXPECT_EQ(architecture.cppn_inputs(), (std::vector<std::string>{"leg", "joint_type", "time", "sensor"}));
-  EXPECT_EQ(architecture.cppn_outputs(), (std::vector<std::string>{"pattern", "offset", "gain", "rate"}));
-  // gain = 0.1 + 0.2 type + 0.3 time + 0.4 sensor, rate = 10 leg + 0.5 type + 0.7 time + 0.6 sensor; sensors
-  // ½, 1.
-  const auto decoded = architecture.decode(linear_cppn<5, 4>(
-      {{{0.1, 0, 0, 0.2, 9.0}, {0.2, 0, 0, 0, 0}, {0.1, 0, 0.2, 0.3, 0.4}, {0.0, 10.0, 0.5, 0.7, 0.6}}}));
-  const auto& parameters = dynamic_cast<const ModulatedParameters&>(*decoded);
-  const Modulation& modulation = parameters.modulation();
-  for (int tick = 0; tick <= 10; ++tick)
-    for (int s = 0; s < 2; ++s) {
-      const double sensor = (s + 1) / 2.0, time = tick / 10.0;
-      // FL knee has type −1 and a range of 0.8 rad, BR hip_io type 1 and 0.4 rad.
-      EXPECT_NEAR(modulation.entry(0, tick)[(1 + s) * 4], 0.8 * 0.4 * (0.1 - 0.2 + 0.3 * time + 0.4 * sensor),
-                  1e-6);
-      EXPECT_NEAR(modulation.entry(3, tick)[(1 + s) * 4 + 2],
-                  0.8 * 0.2 * (0.1 + 0.2 + 0.3 * time + 0.4 * sensor), 1e-6);
-    }
-  // Leg FL is at −0.02.
-  EXPECT_NEAR(modulation.rate(0, 0), 0.5 * (-0.2 + 0.3), 1e-6);
-  EXPECT_NEAR(modulation.rate(0, 1), 0.5 * (-0.2 + 0.6), 1e-6);
-  // The pattern knows nothing of sensors: 0.1 + 0.2 time.
-  EXPECT_NEAR(parameters.targets_rad(0, 5)[0], -0.8 + 0.4 * (1.2), 1e-6);
-}
-
 TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
   SupgSettings settings;
   settings.period_s = 0.1;
@@ -516,51 +355,6 @@ TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
     const double pattern = 0.1 * static_cast<double>(state[0]) / 10.0 + 0.4 * s - 0.2;
     EXPECT_NEAR(targets.at(0, 0), -0.8 + 0.4 * (pattern + 1.0), 1e-5) << pitch_rad;  // FL knee: −0.8 … 0
   }
-}
-
-TEST(ModulatedSupg, WeightsOfLevelsAreOneThereAndAddUpToOneAboutHalfAUnit) {
-  for (const float at : reading_levels)
-    for (const float level : reading_levels) EXPECT_EQ(weight_of_level(at, level), at == level ? 1.0f : 0.0f);
-  for (const float level : reading_levels) EXPECT_EQ(weight_of_level(0.0f, level), 0.0f);
-  EXPECT_FLOAT_EQ(weight_of_level(0.75f, 0.5f), 0.5f);
-  EXPECT_FLOAT_EQ(weight_of_level(0.75f, 1.0f), 0.5f);
-  EXPECT_FLOAT_EQ(weight_of_level(-0.1f, -0.5f), 0.2f);
-}
-
-TEST(ModulatedSupg, ScalesSensorsToAboutOne) {
-  ModulationSettings settings{.sensors = {"angle.knee", "pitch", "touch"}};
-  const auto sensors =
-      leg_sensors(settings, {.sensors = {{.of = "pitch", .scale = 2.0}}}, quadruped(), timestep_s);
-  EXPECT_NEAR(sensors[0][0].sensed(-0.8f), -1.0, 1e-6);  // front knee: −0.8 … 0
-  EXPECT_NEAR(sensors[0][0].sensed(-0.4f), 0.0, 1e-6);
-  EXPECT_NEAR(sensors[2][0].sensed(0.6f), 0.5, 1e-6);  // hind knee: 0 … 0.8
-  EXPECT_NEAR(sensors[1][1].sensed(0.1f), 0.4, 1e-6);  // half a radian is 1, twice
-  EXPECT_EQ(sensors[1][1].sensed(3.0f), 1.0f);
-  EXPECT_EQ(sensors[1][1].sensed(std::nanf("")), -1.0f);
-  EXPECT_EQ(sensors[3][2].sensed(1.0f), 1.0f);
-}
-
-std::string refusal(const std::vector<std::string>& sensors) {
-  try {
-    leg_sensors({.sensors = sensors}, {}, quadruped(), timestep_s);
-  } catch (const SettingError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
-TEST(ModulatedSupg, RefusesSensorsThatThereAreNot) {
-  EXPECT_EQ(
-      refusal({"pitch", "smell"}),
-      "controller.supg.modulation.sensors[1] = \"smell\": expected angle.TYPE, touch, load, speed.TYPE, "
-      "torque.TYPE, "
-      "roll, pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error");
-  EXPECT_EQ(refusal({"angle.elbow"}),
-            "controller.supg.modulation.sensors[0] = \"angle.elbow\": the robot has no joint type elbow");
-  EXPECT_EQ(refusal({"pitch", "pitch"}), "controller.supg.modulation.sensors[1] = \"pitch\" is there twice");
-  EXPECT_NE(refusal({"angle"}), "none");
-  EXPECT_NE(refusal({"sine"}), "none");
-  EXPECT_NE(refusal({"touch.FL"}), "none");
 }
 
 }  // namespace modulated_supg_test
