@@ -16,6 +16,7 @@
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
@@ -140,6 +141,8 @@ void add_evolve(CLI::App& app, Action& action) {
       print_oddities(run);
       for (const auto& idle : experiment::idle_assignments(config, options->overrides.assignments))
         print_message(fmt::format("note: --set {}\n", idle));
+      for (const auto& idle : experiment::idle_parts(run.problem()))
+        print_message(fmt::format("note: {}\n", idle));
       return execute(std::move(run), options->out, options->jobs, std::move(server));
     };
   });

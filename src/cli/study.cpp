@@ -17,6 +17,7 @@
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/idle_settings.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/report/undecidable.hpp"
@@ -203,6 +204,7 @@ ExitCode run_study(const StudyOptions& options) {
   auto server = server_for(options.watch);
   const auto shard = study::Shard::parse(options.shard);
   auto plan = study::make_plan(ledger::load_study(options.file), options.out);
+  ledger::check_folder(plan.paths, plan.study, options.file);
   plan.retest(options.retest);
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);

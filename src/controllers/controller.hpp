@@ -69,6 +69,9 @@ class Architecture {
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
   /// What its sensors have to hold beside what engines give: in step() these rows are not empty.
   virtual robot::ExtraSenses extra_senses() const { return {}; }
+  /// Whether its controllers read this sensor, so that how it is read ([controller.sensing]) has an effect;
+  /// true where that is not known.
+  virtual bool reads(const substrate::Sensor&) const { return true; }
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).
   virtual std::string parameters_json(const Parameters& parameters) const = 0;
 };

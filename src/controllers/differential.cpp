@@ -240,4 +240,10 @@ robot::ExtraSenses DifferentialArchitecture::extra_senses() const {
   return senses;
 }
 
+bool DifferentialArchitecture::reads(const substrate::Sensor& sensor) const {
+  using Kind = substrate::Sensor::Kind;
+  return sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn ||
+         (sensor.kind == Kind::heading_error && settings_.heading_gain > 0.0) || walker_->reads(sensor);
+}
+
 }  // namespace amble::controllers

@@ -46,6 +46,7 @@ class DifferentialArchitecture : public Architecture {
   }
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
+  bool reads(const substrate::Sensor& sensor) const override;
   std::string parameters_json(const Parameters& parameters) const override {
     return walker_->parameters_json(parameters);
   }

@@ -233,6 +233,12 @@ robot::ExtraSenses MixedArchitecture::extra_senses() const {
   return extra;
 }
 
+bool MixedArchitecture::reads(const substrate::Sensor& sensor) const {
+  return SupgArchitecture::reads(sensor) || std::ranges::any_of(net_->sensors, [&](const LegSensor& read) {
+           return substrate::shares_rows(read.sensor, sensor);
+         });
+}
+
 std::string MixedArchitecture::parameters_json(const Parameters& parameters) const {
   const MixedParameters& mixed = as_mixed(parameters);
   using Json = nlohmann::ordered_json;

@@ -1,6 +1,7 @@
 #include "amble/controllers/modulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -33,7 +34,8 @@ std::optional<int> joint_of(const robot::RobotSpec& robot, std::size_t leg, std:
                             const std::string& key, const std::string& name) {
   const auto found = std::ranges::find(robot.joint_types, type);
   if (found == robot.joint_types.end())
-    fail_setting({key}, "{} = \"{}\": the robot has no joint type {}", key, name, type);
+    fail_setting({key}, "{} = \"{}\": the robot has no joint type {}; expected {}", key, name, type,
+                 fmt::join(robot.joint_types, ", "));
   const int joint = robot.legs[leg].joints[to_index(found - robot.joint_types.begin())];
   return joint < 0 ? std::nullopt : std::optional(joint);
 }

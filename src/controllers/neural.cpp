@@ -45,6 +45,12 @@ robot::ExtraSenses NeuralArchitecture::extra_senses() const {
   return extra;
 }
 
+bool NeuralArchitecture::reads(const substrate::Sensor& sensor) const {
+  return std::ranges::any_of(model_->wiring.sensors, [&](const substrate::Sensor& read) {
+    return substrate::shares_rows(read, sensor);
+  });
+}
+
 std::unique_ptr<Parameters> NeuralArchitecture::decode(const cppn::Network& network) const {
   auto parameters = std::make_unique<NeuralParameters>();
   parameters->decoded = layout().decode(network);

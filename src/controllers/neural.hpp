@@ -46,6 +46,7 @@ class NeuralArchitecture : public Architecture {
   const substrate::Layout* substrate() const override { return &layout(); }
   const substrate::Layout& layout() const { return model_->layout; }
   robot::ExtraSenses extra_senses() const override;
+  bool reads(const substrate::Sensor& sensor) const override;
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::string parameters_json(const Parameters& parameters) const override;
 

@@ -36,6 +36,9 @@ class OscillatorArchitecture : public Architecture {
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   std::string parameters_json(const Parameters& parameters) const override;
+  bool reads(const substrate::Sensor& sensor) const override {
+    return sensor.kind == substrate::Sensor::Kind::touch && settings_.reset == PhaseReset::touch;
+  }
 
  private:
   OscillatorSettings settings_;

@@ -1,6 +1,8 @@
 #include "amble/controllers/sensing.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,15 @@ int ticks(double time_s, double timestep_s, const std::string& key) {
   return static_cast<int>(whole);
 }
 
+/// Kinds of which a robot has several.
+std::string kinds_of_many() {
+  std::vector<std::string_view> names;
+  for (const substrate::SensorKind& kind : substrate::sensor_kinds())
+    if (kind.owner == substrate::SensorOwner::joint || kind.owner == substrate::SensorOwner::leg)
+      names.push_back(kind.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// The sensors that a name means: one, or with a kind alone all of that kind.
 std::vector<Sensor> named_sensors(const std::string& name, const robot::RobotSpec& robot,
                                   const std::string& key) {
@@ -32,8 +43,11 @@ std::vector<Sensor> named_sensors(const std::string& name, const robot::RobotSpe
       all.push_back({kind->kind, joint});
   else if (kind != kinds.end() && kind->owner == substrate::SensorOwner::leg)
     for (int leg = 0; leg < static_cast<int>(robot.legs.size()); ++leg) all.push_back({kind->kind, leg});
-  else
+  else if (kind != kinds.end() || name.find('.') != std::string::npos)
     all.push_back(substrate::parse_sensor(name, robot, key));
+  else
+    fail_setting({key}, "{} = \"{}\": expected {}; for all of a kind {}", key, name,
+                 substrate::expected_sensors(), kinds_of_many());
   return all;
 }
 

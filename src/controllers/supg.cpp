@@ -201,6 +201,15 @@ robot::ExtraSenses SupgArchitecture::extra_senses() const {
   return extra;
 }
 
+bool SupgArchitecture::reads(const substrate::Sensor& sensor) const {
+  const bool triggered = settings_.trigger == Trigger::edge || settings_.trigger == Trigger::level;
+  if (triggered && tells_contact(settings_.contact.source, sensor.kind)) return true;
+  for (const auto& leg : leg_sensors_)
+    for (const LegSensor& read : leg)
+      if (read.is_there && substrate::shares_rows(read.sensor, sensor)) return true;
+  return std::ranges::any_of(leg_loads_, [&](const LegSensor& load) { return load.sensor == sensor; });
+}
+
 std::string SupgArchitecture::parameters_json(const Parameters& parameters) const {
   const auto* const supg = dynamic_cast<const SupgParameters*>(&parameters);
   AMBLE_CHECK(supg != nullptr, "the parameters are not a SUPG's");

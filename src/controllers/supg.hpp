@@ -148,6 +148,7 @@ class SupgArchitecture : public Architecture {
   std::string parameters_json(const Parameters& parameters) const override;
 
   robot::ExtraSenses extra_senses() const override;
+  bool reads(const substrate::Sensor& sensor) const override;
 
   int period_ticks() const { return period_ticks_; }
   bool modulated() const { return settings_.modulation.any(); }

@@ -1,5 +1,7 @@
 #include "amble/controllers/supg_contact.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,12 +34,28 @@ void check_threshold(const ContactSettings& settings, const robot::RobotSpec& ro
 
 }  // namespace
 
+bool tells_contact(ContactSource source, substrate::Sensor::Kind kind) {
+  using Kind = substrate::Sensor::Kind;
+  switch (source) {
+    case ContactSource::touch:
+      return kind == Kind::touch;
+    case ContactSource::torque:
+      return kind == Kind::torque;
+    case ContactSource::tracking:
+      return kind == Kind::angle;
+    case ContactSource::shock:
+      return kind == Kind::roll || kind == Kind::pitch;
+  }
+  return false;
+}
+
 std::vector<std::vector<int>> contact_joints(const ContactSettings& settings, const robot::RobotSpec& robot) {
   std::vector<std::vector<int>> joints(robot.legs.size());
   const auto type = std::ranges::find(robot.joint_types, settings.joint_type);
   const std::string key = "controller.supg.contact.joint_type";
   if (!settings.joint_type.empty() && type == robot.joint_types.end())
-    fail_setting({key}, "{} = \"{}\": the robot has no such joint type", key, settings.joint_type);
+    fail_setting({key}, "{} = \"{}\": the robot has no such joint type; expected {}", key,
+                 settings.joint_type, fmt::join(robot.joint_types, ", "));
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
     const auto& all = robot.legs[leg].joints;
     for (std::size_t t = 0; t < all.size(); ++t) {

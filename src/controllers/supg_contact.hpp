@@ -7,12 +7,16 @@
 #include "amble/core/lanes.hpp"
 #include "amble/robot/sensors.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/substrate/sensor.hpp"
 
 namespace amble::controllers {
 
 /// Which joints' numbers tell of a leg's contact. Throws SettingError for a joint type that the robot lacks,
 /// or that one of its legs lacks.
 std::vector<std::vector<int>> contact_joints(const ContactSettings& settings, const robot::RobotSpec& robot);
+
+/// Whether contacts of this source are told by sensors of that kind.
+bool tells_contact(ContactSource source, substrate::Sensor::Kind kind);
 
 /// The contacts of legs without foot switches: 1 or 0 by lane, as a touch is. With x the number that tells,
 ///   torque    |torque| of the leg's motor in the last step (the largest of several), N m

@@ -50,6 +50,7 @@ class SwitchingArchitecture : public Architecture {
   }
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
+  bool reads(const substrate::Sensor& sensor) const override;
   /// What the own genome gives, and how many `gaits` there are.
   std::string parameters_json(const Parameters& parameters) const override;
 

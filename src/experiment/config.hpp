@@ -30,10 +30,6 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
 /// header of documents is not installed.
 Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
-/// The assignments that set what this config does not use: of another controller or search than its own. In
-/// the words "controller.ctrnn.rate has no effect: controller.kind is \"supg\"".
-std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments);
-
 /// [controller.differential] in one line, "turn_gain = 1.5, full_speed_m_s = 0.4"; `what` names it in
 /// messages. Throws UserError; also for one that steers nothing.
 controllers::DifferentialSettings parse_differential(const std::string& text, const std::string& what);

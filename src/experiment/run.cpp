@@ -121,6 +121,9 @@ const RunPaths& Run::paths() const {
 const robot::RobotSpec& Run::robot() const {
   return state_->problem().robot;
 }
+const Problem& Run::problem() const {
+  return state_->problem();
+}
 const TrialTally& Run::tally() const {
   return state_->tally();
 }

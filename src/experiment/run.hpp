@@ -13,6 +13,8 @@
 
 namespace amble::experiment {
 
+struct Problem;
+
 /// Receives the progress of a run. Called from the thread of Run::execute.
 class RunListener {
  public:
@@ -66,6 +68,8 @@ class Run {
   const RunPaths& paths() const;
   /// The robot of its trials, on its ground (Problem::robot).
   const robot::RobotSpec& robot() const;
+  /// What maps its genomes to trajectories.
+  const Problem& problem() const;
   /// How the trials ended that this object has made.
   const TrialTally& tally() const;
   /// Generations done.

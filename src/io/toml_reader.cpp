@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -18,19 +19,44 @@ std::string_view last_part(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-/// The known key that the user may have meant, or nothing. A key in the wrong table counts as one edit.
+std::string_view table_of(std::string_view path) {
+  return path.substr(0, path.size() - last_part(path).size());
+}
+
+/// The known key that the user may have meant, or nothing: a path in quotes, one of the same table that is
+/// spelt much like it, or one of another table that is spelt alike.
 std::string nearest(std::string_view key, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t fewest = 1 + most_misspelt(key);
+  if (key.size() > 2 && key.front() == '"' && key.back() == '"') {
+    const auto path = std::ranges::find(known, key.substr(1, key.size() - 2));
+    return path == known.end() ? std::string() : *path;
+  }
+  const auto elsewhere = std::ranges::find(known, last_part(key), last_part);
+  // Two letters of a short word may have changed places; the same word in another table comes before that.
+  const std::size_t of_short = std::min<std::size_t>(last_part(key).size() / 2, 2);
+  std::size_t fewest = elsewhere != known.end() ? 2 : 1 + std::max(most_misspelt(last_part(key)), of_short);
+  std::string best = elsewhere != known.end() ? *elsewhere : std::string();
   for (const std::string& candidate : known) {
-    const bool misplaced = last_part(key) == last_part(candidate);
-    const std::size_t edits = misplaced ? 1 : edit_distance(key, candidate);
+    if (table_of(candidate) != table_of(key)) continue;
+    const std::size_t edits = edit_distance(last_part(key), last_part(candidate));
     if (edits < fewest) {
       fewest = edits;
       best = candidate;
     }
   }
   return best;
+}
+
+/// " (did you mean 'X'?)", or the keys of its table, if they are few; of the root's none.
+std::string what_is_known(std::string_view key, const std::vector<std::string>& known) {
+  constexpr std::size_t few = 8;
+  if (const std::string meant = nearest(key, known); !meant.empty())
+    return fmt::format(" (did you mean '{}'?)", meant);
+  std::vector<std::string_view> keys;
+  for (const std::string& candidate : known)
+    if (table_of(candidate) == table_of(key) && std::ranges::find(keys, last_part(candidate)) == keys.end())
+      keys.push_back(last_part(candidate));
+  if (table_of(key).empty() || keys.empty() || keys.size() > few) return {};
+  return fmt::format("; expected {}", fmt::join(keys, ", "));
 }
 
 /// The number of a node, if it has one within the range: a whole number will do, and is compared exactly.
@@ -155,8 +181,9 @@ class TomlReader final : public SettingsReader {
 
   [[noreturn]] static void refuse_at(const std::string& path, const TomlNode& node,
                                      std::string_view expected) {
-    // The text from the command line already names key and value.
-    if (node.from_command_line) fail(ExitCode::bad_input, "{}: expected {}", node.where, expected);
+    // The text from the command line already names key and value, unless they are within a list or table.
+    if (node.from_command_line && node.where.starts_with(fmt::format("--set {}=", path)))
+      fail(ExitCode::bad_input, "{}: expected {}", node.where, expected);
     fail(ExitCode::bad_input, "{}: '{}' = {}: expected {}", node.where, path, toml_text(node), expected);
   }
 
@@ -171,9 +198,7 @@ class TomlReader final : public SettingsReader {
             refuse_unknown_keys(node.items[item], numbered(path, item));
         continue;
       }
-      const std::string meant = nearest(path, known_);
-      fail(ExitCode::bad_input, "{}: unknown key '{}'{}", node.where, path,
-           meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant));
+      fail(ExitCode::bad_input, "{}: unknown key '{}'{}", node.where, path, what_is_known(path, known_));
     }
   }
 

@@ -100,12 +100,8 @@ void check_place(const StudyPaths& paths, const StudySpec& study, const std::str
          paths.folder.string(), other.name, study.name);
 }
 
-}  // namespace
-
-void keep_study(const StudyPaths& paths, const StudySpec& study, const fs::path& file) {
-  std::error_code missing;
-  if (fs::equivalent(file, paths.spec, missing)) return;
-  StudySpec kept = study;
+/// A study as its folder keeps it, paths from there.
+std::string kept_text(const StudyPaths& paths, StudySpec kept) {
   const auto from_folder = [&paths](std::string& named) {
     if (!named.empty()) named = fs::proximate(named, paths.folder).string();
   };
@@ -118,11 +114,28 @@ void keep_study(const StudyPaths& paths, const StudySpec& study, const fs::path&
     from_folder(test.ground);
     from_folder(test.damage);
   }
-  const std::string text = kept.to_toml();
-  if (fs::exists(paths.spec)) {
-    if (io::read_file(paths.spec) == text) return;
-    check_place(paths, study, text);
-  }
+  return kept.to_toml();
+}
+
+/// Whether this file is the copy that the folder keeps.
+bool is_kept_copy(const StudyPaths& paths, const fs::path& file) {
+  std::error_code missing;
+  return fs::equivalent(file, paths.spec, missing);
+}
+
+}  // namespace
+
+void check_folder(const StudyPaths& paths, const StudySpec& study, const fs::path& file) {
+  if (is_kept_copy(paths, file) || !fs::exists(paths.spec)) return;
+  const std::string text = kept_text(paths, study);
+  if (io::read_file(paths.spec) != text) check_place(paths, study, text);
+}
+
+void keep_study(const StudyPaths& paths, const StudySpec& study, const fs::path& file) {
+  check_folder(paths, study, file);
+  if (is_kept_copy(paths, file)) return;
+  const std::string text = kept_text(paths, study);
+  if (fs::exists(paths.spec) && io::read_file(paths.spec) == text) return;
   io::make_folder(paths.folder);
   io::write_file(paths.spec, text);
 }

@@ -45,9 +45,11 @@ std::string ledger_digest(const StudySpec& study, const std::vector<Record>& rec
 
 /// The study of a folder, from the copy that `amble study` keeps there. Throws UserError if there is none.
 StudySpec load_study_copy(const StudyPaths& paths);
+/// Throws UserError if the folder has a study.toml that amble has not written, or another study's records.
+/// `file`: from which the study was read.
+void check_folder(const StudyPaths& paths, const StudySpec& study, const std::filesystem::path& file);
 /// Writes that copy, with paths relative to the folder, unless it is the same already or `file`, from which
-/// the study was read. Throws UserError, and changes nothing, if the folder has a study.toml that amble has
-/// not written, or another study's records.
+/// the study was read. Throws as check_folder(), and then changes nothing.
 void keep_study(const StudyPaths& paths, const StudySpec& study, const std::filesystem::path& file = {});
 
 }  // namespace amble::ledger

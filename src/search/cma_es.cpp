@@ -53,9 +53,9 @@ neat::Genome CmaEs::initial_genome(int start) const {
 }
 
 CovarianceAdaptation CmaEs::new_distribution(int start) const {
-  if (neat_.population.size < 4)
-    fail_setting({"population.size"}, "population.size = {}: CMA-ES needs at least 4 candidates",
-                 neat_.population.size);
+  if (neat_.population.size < least_cma_es_candidates)
+    fail_setting({"population.size"}, "population.size = {}: CMA-ES needs at least {} candidates",
+                 neat_.population.size, least_cma_es_candidates);
   return {weights_of(initial_genome(start)), settings_.step, neat_.population.size};
 }
 

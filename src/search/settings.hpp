@@ -192,6 +192,9 @@ struct MapElitesSettings {
 /// Largest number of cells of a map.
 inline constexpr std::uint32_t most_cells = 20'000'000;
 
+/// Fewest candidates of a round of CMA-ES.
+inline constexpr int least_cma_es_candidates = 4;
+
 /// CMA-ES on the weights of a CPPN that never grows (Hansen, arXiv 1604.00772). In the unit of weights.
 struct CmaEsSettings {
   double step = 0.3;         ///< standard deviation of each weight in the first round, 1e−9 … 1000

@@ -10,6 +10,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/io/text.hpp"
 
 namespace amble::substrate {
 namespace {
@@ -47,23 +48,30 @@ std::string placeholder(const SensorKind& row) {
   return row.owner == Owner::leg ? fmt::format("{}.LEG", row.name) : std::string(row.name);
 }
 
-std::string expected_names() {
-  std::string text;
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == kinds.size() ? " or " : ", ") + placeholder(kinds[i]);
-  return text;
-}
-
 template <typename Items>
 int index_of(const Items& items, std::string_view name) {
   const auto found = std::ranges::find_if(items, [&](const auto& item) { return item.name == name; });
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
+template <typename Items>
+std::string names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return io::first_few(names);
+}
+
 }  // namespace
 
 std::span<const SensorKind> sensor_kinds() {
   return kinds;
+}
+
+std::string expected_sensors() {
+  std::string text;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == kinds.size() ? " or " : ", ") + placeholder(kinds[i]);
+  return text;
 }
 
 const SensorKind& kind_of(const Sensor& sensor) {
@@ -76,13 +84,14 @@ Sensor parse_sensor(std::string_view name, const robot::RobotSpec& robot, const 
   const auto row = std::ranges::find(kinds, what, &SensorKind::name);
   const bool owned = row != kinds.end() && (row->owner == Owner::joint || row->owner == Owner::leg);
   if (row == kinds.end() || owned != (dot != std::string_view::npos))
-    fail_setting({key}, "{} = \"{}\": expected {}", key, name, expected_names());
+    fail_setting({key}, "{} = \"{}\": expected {}", key, name, expected_sensors());
   if (!owned) return {row->kind, 0};
   const std::string_view owner = name.substr(dot + 1);
   const bool of_joint = row->owner == Owner::joint;
   const int index = of_joint ? index_of(robot.joints, owner) : index_of(robot.legs, owner);
   if (index < 0)
-    fail_setting({key}, "{} = \"{}\": the robot has no {} {}", key, name, of_joint ? "joint" : "leg", owner);
+    fail_setting({key}, "{} = \"{}\": the robot has no {} {}; expected {}", key, name,
+                 of_joint ? "joint" : "leg", owner, of_joint ? names_of(robot.joints) : names_of(robot.legs));
   return {row->kind, index};
 }
 
@@ -92,6 +101,13 @@ std::string sensor_name(const Sensor& sensor, const robot::RobotSpec& robot) {
     return fmt::format("{}.{}", row.name, robot.joints[to_index(sensor.index)].name);
   if (row.owner == Owner::leg) return fmt::format("{}.{}", row.name, robot.legs[to_index(sensor.index)].name);
   return std::string(row.name);
+}
+
+bool shares_rows(const Sensor& a, const Sensor& b) {
+  const auto turns = [](const Sensor& sensor) {
+    return sensor.kind == Kind::roll || sensor.kind == Kind::yaw;
+  };
+  return a == b || (turns(a) && turns(b));
 }
 
 const float* row_of(const Sensor& sensor, const robot::SensorFrame& frame) {

@@ -51,6 +51,12 @@ struct SensorKind {
 /// A new one is a row there, a value of Sensor::Kind, and where robot::SensorFrame has it a case in row_of().
 std::span<const SensorKind> sensor_kinds();
 const SensorKind& kind_of(const Sensor& sensor);
+/// What parse_sensor() understands: "angle.JOINT, touch.LEG, … or sine".
+std::string expected_sensors();
+
+/// Whether what is done to the readings of one changes the other's: the same sensor, or roll and yaw, which
+/// Attitude::misordered_quaternion exchanges.
+bool shares_rows(const Sensor& a, const Sensor& b);
 
 /// The sensor of that name: KIND.JOINT, KIND.LEG or KIND by sensor_kinds(). Throws SettingError "KEY = …: …"
 /// if there is no such sensor or the robot lacks the joint or leg.

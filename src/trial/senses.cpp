@@ -36,9 +36,7 @@ Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double
       angle_before_rad_(sensors.joint_angle_rad),
       yaw_before_rad_(1, sensors.touch.lanes()) {
   const int lanes = sensors.touch.lanes();
-  for (const controllers::SensorModel& model : sensing.models)
-    if (model.is_imperfect())
-      imperfect_.push_back({model, LaneArray(model.delay_ticks, lanes), LaneArray(1, lanes)});
+  read_ = sensors;
   if (sensing.extra.speed) read_.joint_speed_rad_s = LaneArray(sensors.joint_angle_rad.rows(), lanes);
   if (sensing.extra.torque) read_.joint_torque_nm = LaneArray(sensors.joint_angle_rad.rows(), lanes);
   if (sensing.extra.load) read_.foot_load_n = LaneArray(sensors.touch.rows(), lanes);
@@ -48,6 +46,9 @@ Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double
     read_.command_stop = LaneArray(1, lanes);
   }
   if (sensing.extra.heading_error) read_.heading_error_rad = LaneArray(1, lanes);
+  for (const controllers::SensorModel& model : sensing.models)
+    if (model.is_imperfect() && substrate::row_of(model.sensor, read_) != nullptr)
+      imperfect_.push_back({model, LaneArray(model.delay_ticks, lanes), LaneArray(1, lanes)});
 }
 
 void Senses::load(int lane, const physics::Engine& engine, const Scenario* scenario,

@@ -34,7 +34,8 @@ float wrapped_rad(float angle_rad);
 /// frames, and then for each reading, in this order: its delay (before so much time has gone by, the value at
 /// the start), its dead time (it is renewed in the first tick and then every hold_ticks ticks), and its
 /// noise, uniform, anew for each reading, by a stream of the trial's scenario; without a scenario there is
-/// none. Scales are the controllers'. Rates and headings are those of true angles.
+/// none. Scales are the controllers'. Rates and headings are those of true angles. A model of a sensor whose
+/// rows the controller does not ask for has no effect.
 ///
 /// The heading that commands lead to is the robot's own before the first tick, and turns by the commanded
 /// rate times the tick after each tick.

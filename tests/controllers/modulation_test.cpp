@@ -113,7 +113,8 @@ TEST(Modulation, RefusesSensorsThatThereAreNot) {
       "torque.TYPE, "
       "roll, pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error");
   EXPECT_EQ(refusal({"angle.elbow"}),
-            "controller.supg.modulation.sensors[0] = \"angle.elbow\": the robot has no joint type elbow");
+            "controller.supg.modulation.sensors[0] = \"angle.elbow\": the robot has no joint type elbow; "
+            "expected knee, hip_fb, hip_io");
   EXPECT_EQ(refusal({"pitch", "pitch"}), "controller.supg.modulation.sensors[1] = \"pitch\" is there twice");
   EXPECT_NE(refusal({"angle"}), "none");
   EXPECT_NE(refusal({"sine"}), "none");

@@ -52,7 +52,8 @@ TEST(Sensing, RefusesWhatCannotBeInOneLine) {
       refusal({{.of = "smell"}}),
       "controller.sensing.sensors[0].of = \"smell\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, "
       "torque.JOINT, "
-      "roll, pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error or sine");
+      "roll, pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error or sine; for all "
+      "of a kind angle, touch, load, speed, torque");
   EXPECT_EQ(refusal({{.of = "angle"}, {.of = "angle.FL_knee"}}),
             "controller.sensing.sensors[1].of = \"angle.FL_knee\": angle.FL_knee is there already");
   EXPECT_EQ(refusal({{.of = "pitch", .delay_s = 0.015}}),

@@ -82,8 +82,10 @@ TEST(SupgContact, RefusesAJointTypeThatTheRobotLacks) {
     contact_joints({.source = ContactSource::torque, .joint_type = "elbow"}, quadruped());
     FAIL() << "accepted";
   } catch (const SettingError& error) {
-    EXPECT_STREQ(error.what(),
-                 "controller.supg.contact.joint_type = \"elbow\": the robot has no such joint type");
+    EXPECT_STREQ(
+        error.what(),
+        "controller.supg.contact.joint_type = \"elbow\": the robot has no such joint type; expected knee, "
+        "hip_fb, hip_io");
   }
 }
 

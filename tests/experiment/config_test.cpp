@@ -228,42 +228,6 @@ TEST(Config, WithoutARobotIsRefusedByName) {
   }
 }
 
-TEST(Config, AssignmentsThatItDoesNotUseAreNamed) {
-  const auto idle = [](const std::string& preset, const std::vector<std::string>& assignments) {
-    const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};
-    return idle_assignments(load_config(configs + preset, overrides), assignments);
-  };
-  using testing::ElementsAre;
-  EXPECT_THAT(idle("authors/supg-objective.toml",
-                   {"controller.supg.offset=phase", "seed=2", "controller.ctrnn.steps_per_tick=3",
-                    "search.novelty.neighbours=5", "population.size=30"}),
-              ElementsAre("controller.ctrnn.steps_per_tick has no effect: controller.kind is \"supg\"",
-                          "search.novelty.neighbours has no effect: search.kind is \"objective\""));
-  EXPECT_THAT(idle("authors/supg-objective.toml",
-                   {"controller.kind=mixed", "controller.substrate=auto", "controller.supg.idle=mid",
-                    "search.kind=novelty", "search.novelty.neighbours=5"}),
-              ElementsAre());
-  EXPECT_THAT(idle("authors/sine-objective.toml", {"controller.supg.idle=mid"}),
-              ElementsAre("controller.supg.idle has no effect: controller.kind is \"network\""));
-  const std::string contact = "controller.supg.contact.", modulation = "controller.supg.modulation.";
-  EXPECT_THAT(
-      idle("authors/supg-objective.toml", {modulation + "rate=1", contact + "threshold=3",
-                                           "controller.supg.seam.filter_order=1", "command.stretch_s=3"}),
-      ElementsAre(modulation + "rate has no effect: " + modulation + "sensors is empty",
-                  contact + "threshold has no effect: " + contact + "source is \"touch\"",
-                  "controller.supg.seam.filter_order has no effect: controller.supg.seam.filter_s is 0",
-                  "command.stretch_s has no effect: command.kind is \"none\""));
-  EXPECT_THAT(idle("authors/supg-objective.toml",
-                   {modulation + "sensors=['pitch']", modulation + "rate=1", modulation + "shape_by=reading",
-                    contact + "source=shock", contact + "joint_type=knee", contact + "threshold=3"}),
-              ElementsAre(modulation + "shape_by has no effect: " + modulation + "shape is 0",
-                          contact + "joint_type has no effect: " + contact + "source is \"shock\""));
-  EXPECT_THAT(idle("authors/supg-objective.toml", {"controller.supg.trigger=none", contact + "source=torque",
-                                                   "search.kind=cma-es", "mutation.add_link_share=0.2"}),
-              ElementsAre(contact + "source has no effect: controller.supg.trigger waits for no contact",
-                          "mutation.add_link_share has no effect: search.kind is \"cma-es\""));
-}
-
 TEST(Config, ForStandingStillIsNoTracking) {
   const auto refusal = [](const std::vector<std::string>& assignments) -> std::string {
     try {

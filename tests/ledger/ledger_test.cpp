@@ -117,6 +117,10 @@ TEST(KeptStudy, TakesThePlaceOfNothingThatIsNotItsOwn) {
   Ledger(paths).save(sample_record("supg", 99));
   study.name = "another";
   EXPECT_NE(refusal().find("has the study 'renamed'"), std::string::npos);
+  EXPECT_THROW(check_folder(paths, study, {}), UserError)
+      << "so that nobody is told how far another study is";
+  EXPECT_NO_THROW(check_folder(StudyPaths(folder / "new"), study, {}));
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
 }
 
 TEST(KeptStudy, IsLeftAsItIsWhereTheStudyWasReadFromIt) {

@@ -94,9 +94,10 @@ TEST(BadSubstrate, OutputThatTheCppnLacksOrNobodyReads) {
 
 TEST(BadSubstrate, SensorOrJointThatTheRobotLacks) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "touch.ML"; }),
-            "nodes[0].sensor = \"touch.ML\": the robot has no leg ML");
+            "nodes[0].sensor = \"touch.ML\": the robot has no leg ML; expected FL, FR, BL, BR");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "angle.FL_elbow"; }),
-            "nodes[0].sensor = \"angle.FL_elbow\": the robot has no joint FL_elbow");
+            "nodes[0].sensor = \"angle.FL_elbow\": the robot has no joint FL_elbow; expected FL_knee, "
+            "FL_hip_fb, FL_hip_io, FR_knee and 8 more");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "smell"; }),
             "nodes[0].sensor = \"smell\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, "
             "torque.JOINT, roll, "
@@ -177,9 +178,10 @@ TEST(BadSubstrate, SensorWithoutAnOwnerOrOfAKindThatRobotsLack) {
     EXPECT_EQ(ctrnn([&](Settings& s) { s.nodes[0].sensor = name; }),
               "nodes[0].sensor = \"" + name + expected);
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "touch.FL_knee"; }),
-            "nodes[0].sensor = \"touch.FL_knee\": the robot has no leg FL_knee");
+            "nodes[0].sensor = \"touch.FL_knee\": the robot has no leg FL_knee; expected FL, FR, BL, BR");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "angle.FL"; }),
-            "nodes[0].sensor = \"angle.FL\": the robot has no joint FL");
+            "nodes[0].sensor = \"angle.FL\": the robot has no joint FL; expected FL_knee, FL_hip_fb, "
+            "FL_hip_io, FR_knee and 8 more");
 }
 
 TEST(BadSubstrate, MoreThanAMillionLinks) {

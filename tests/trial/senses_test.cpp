@@ -49,6 +49,16 @@ TEST(Senses, WithoutAnythingToDoAreTheEnginesOwn) {
   EXPECT_EQ(&robot.read(), &robot.engine.sensors());
 }
 
+TEST(Senses, ThatNobodyReadsMayBeLateAndNoisy) {
+  for (const Kind kind : {Kind::speed, Kind::torque, Kind::yaw_rate, Kind::load, Kind::command_speed,
+                          Kind::command_turn, Kind::command_stop, Kind::heading_error}) {
+    Turning robot({.extra = {}, .models = {model(kind, 0.1f, 3, 2)}});
+    for (int t = 0; t < 5; ++t) EXPECT_EQ(&robot.read(), &robot.engine.sensors());
+  }
+  Turning robot({.extra = {.yaw_rate = true}, .models = {model(Kind::speed, 0.0f, 3)}});
+  for (int t = 0; t < 5; ++t) EXPECT_EQ(robot.read().joint_speed_rad_s.rows(), 0);
+}
+
 TEST(Senses, TakeRatesFromTickToTickAndAcrossTheHalfTurn) {
   Turning robot({.extra = {.speed = true, .yaw_rate = true}, .models = {}});
   EXPECT_EQ(robot.read().joint_speed_rad_s.at(0, 0), 0.0f);

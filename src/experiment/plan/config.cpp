@@ -100,6 +100,10 @@ void Config::validate() const {
                  "champion.episodes = {}: without any noise they would all be the same; expected 0",
                  champion.episodes);
   search::strategy_kind(search).validate(search, make_behaviour()->length());
+  if (search.kind == "cma-es" && neat.population.size < search::least_cma_es_candidates)
+    fail_setting({"population.size", "search.kind"},
+                 "population.size = {}: CMA-ES needs at least {} candidates a round", neat.population.size,
+                 search::least_cma_es_candidates);
 }
 
 bool Config::disturbed() const {

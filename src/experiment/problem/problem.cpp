@@ -18,6 +18,14 @@
 namespace amble::experiment {
 namespace {
 
+/// What makes a controller hear commands.
+std::string hearing_key(const controllers::ControllerSettings& controller) {
+  if (controller.differential.any()) return "controller.differential";
+  if (controller.switching.any()) return "controller.switching";
+  if (controller.kind == "supg") return "controller.supg.modulation.sensors";
+  return "controller.kind";
+}
+
 constexpr int robot_version = 1;
 
 /// The gaits' genomes as controllers.
@@ -63,8 +71,7 @@ void Problem::make_architecture() {
   }
   architecture = std::move(made);
   if (architecture->extra_senses().commands() && command.kind == trial::CommandKind::none)
-    fail_setting({"command.kind", "controller.substrate", "controller.supg.modulation.sensors",
-                  "controller.differential", "controller.switching"},
+    fail_setting({"command.kind", hearing_key(controller)},
                  "command.kind = \"none\": the controller senses commands, and there are none; expected "
                  "fixed or random");
 }

@@ -1,0 +1,167 @@
+#include "amble/experiment/idle_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <optional>
+#include <string_view>
+
+#include "amble/controllers/sensing.hpp"
+#include "amble/search/strategies.hpp"
+
+namespace amble::experiment {
+namespace {
+
+/// Why an assignment to `key` changes nothing: it is in a table that other kinds read and this one does not.
+/// Nothing if it does, or if it is not known what this kind reads. `place`: the key that chooses the kind.
+template <typename Kind>
+std::optional<std::string> idle_reason(std::string_view key, std::string_view place,
+                                       const std::string& chosen, const std::deque<Kind>& kinds) {
+  const auto reads = [key](const Kind& kind) {
+    return std::ranges::any_of(kind.tables,
+                               [key](const std::string& table) { return key.starts_with(table + "."); });
+  };
+  const auto kind = std::ranges::find(kinds, chosen, &Kind::name);
+  if (kind == kinds.end() || kind->tables.empty() || reads(*kind) || std::ranges::none_of(kinds, reads))
+    return {};
+  return fmt::format("{} has no effect: {} is \"{}\"", key, place, chosen);
+}
+
+/// What decides, beside the kinds, whether settings are used.
+struct IdleRule {
+  std::string_view path;  ///< settings that begin so
+  std::string_view but;   ///< of which this one is not meant
+  bool (*idle)(const Config&);
+  std::string_view because;
+};
+
+bool has_supgs(const Config& config) {
+  return config.controller.kind == "supg" || config.controller.kind == "mixed";
+}
+
+bool is_triggered(const Config& config) {
+  return config.controller.supg.trigger == controllers::Trigger::edge ||
+         config.controller.supg.trigger == controllers::Trigger::level;
+}
+
+bool senses_nothing(const Config& config) {
+  return config.controller.kind == "supg" && config.controller.supg.modulation.sensors.empty();
+}
+
+/// Only random commands have these.
+constexpr std::array random_keys{
+    "command.stretch_s",      "command.least_speed_m_s", "command.most_speed_m_s", "command.most_turn_rad_s",
+    "command.straight_share", "command.stop_share",      "command.mirrored"};
+
+constexpr std::array<IdleRule, 15> idle_rules{
+    {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
+     {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
+     {"controller.supg.modulation.shape_by", "",
+      [](const Config& config) {
+        return !senses_nothing(config) && config.controller.supg.modulation.shape == 0.0;
+      },
+      "controller.supg.modulation.shape is 0"},
+     {"controller.supg.contact.", "",
+      [](const Config& config) { return has_supgs(config) && !is_triggered(config); },
+      "controller.supg.trigger waits for no contact"},
+     {"controller.supg.contact.", "controller.supg.contact.source",
+      [](const Config& config) {
+        return has_supgs(config) && is_triggered(config) &&
+               config.controller.supg.contact.source == controllers::ContactSource::touch;
+      },
+      "controller.supg.contact.source is \"touch\""},
+     {"controller.supg.contact.joint_type", "",
+      [](const Config& config) {
+        return has_supgs(config) && is_triggered(config) &&
+               config.controller.supg.contact.source == controllers::ContactSource::shock;
+      },
+      "controller.supg.contact.source is \"shock\""},
+     {"controller.supg.trigger_debounce_ticks", "",
+      [](const Config& config) {
+        return has_supgs(config) && config.controller.supg.trigger != controllers::Trigger::edge;
+      },
+      "controller.supg.trigger is not \"edge\""},
+     {"controller.supg.seam.filter_order", "",
+      [](const Config& config) { return has_supgs(config) && config.controller.supg.seam.filter_s == 0.0; },
+      "controller.supg.seam.filter_s is 0"},
+     {"command.", "command.kind",
+      [](const Config& config) { return config.command.kind == trial::CommandKind::none; },
+      "command.kind is \"none\""},
+     {"controller.supg.modulation.rate", "",
+      [](const Config& config) { return config.controller.kind == "mixed"; },
+      "controller.kind is \"mixed\", whose links have the rate"},
+     {"controller.supg.modulation.re", "",  // reset, refractory_ticks
+      [](const Config& config) {
+        return has_supgs(config) && config.controller.supg.trigger == controllers::Trigger::none;
+      },
+      "controller.supg.trigger is \"none\""},
+     {"controller.differential.change_s", "",
+      [](const Config& config) { return !config.controller.differential.any(); },
+      "controller.differential steers nothing"},
+     {"controller.switching.", "controller.switching.gaits",
+      [](const Config& config) { return !config.controller.switching.any(); },
+      "controller.switching.gaits is empty"},
+     {"genome.initial_link_probability", "",
+      [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\", which begins with all links"},
+     {"innovations.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\", which adds no nodes and links"}}};
+
+}  // namespace
+
+std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments) {
+  std::vector<std::string> idle;
+  for (const std::string& assignment : assignments) {
+    const std::string_view key = std::string_view(assignment).substr(0, assignment.find('='));
+    for (const auto& reason :
+         {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
+          idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
+      if (reason) idle.push_back(*reason);
+    for (const IdleRule& rule : idle_rules)
+      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
+        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
+    if (config.command.kind == trial::CommandKind::fixed &&
+        std::ranges::find(random_keys, key) != random_keys.end())
+      idle.push_back(fmt::format("{} has no effect: command.kind is \"fixed\"", key));
+  }
+  return idle;
+}
+
+namespace {
+
+/// Sensors that settings name and no controller reads.
+void find_unread_sensors(const Problem& problem, std::vector<std::string>& idle) {
+  const std::vector<controllers::SensorSettings>& named = problem.controller.sensing.sensors;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const auto models = controllers::sensor_models({{named[i]}}, problem.robot, problem.trial.timestep_s);
+    const bool is_read = std::ranges::any_of(models, [&](const controllers::SensorModel& model) {
+      return problem.architecture->reads(model.sensor);
+    });
+    if (!is_read)
+      idle.push_back(fmt::format("controller.sensing.sensors[{}] has no effect: the controller reads no {}",
+                                 i, named[i].of));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> idle_parts(const Problem& problem) {
+  std::vector<std::string> idle;
+  find_unread_sensors(problem, idle);
+  const controllers::ModulationSettings& modulation = problem.controller.supg.modulation;
+  if (problem.controller.kind == "supg" && !modulation.sensors.empty() && modulation.rate == 0.0 &&
+      modulation.shape == 0.0)
+    idle.push_back(
+        "controller.supg.modulation.sensors has no effect: rate and shape, how much sensors may change, are "
+        "0");
+  if (problem.command.kind != trial::CommandKind::none && !problem.architecture->extra_senses().commands())
+    idle.push_back(fmt::format(
+        "[command] is not heard: the controller, of kind \"{}\", senses no commands; configs/steer has those "
+        "that do",
+        problem.controller.kind));
+  return idle;
+}
+
+}  // namespace amble::experiment

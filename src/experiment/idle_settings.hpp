@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/experiment/plan/config.hpp"
+#include "amble/experiment/problem/problem.hpp"
+
+namespace amble::experiment {
+
+/// The assignments ("KEY=VALUE") that set what this config does not use: of another controller or search than
+/// its own, or switched off by another setting. In the words "controller.ctrnn.rate has no effect:
+/// controller.kind is \"supg\"".
+std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments);
+
+/// What a problem was given, wherever that was set, and its controllers do not use: sensors that are read in
+/// some way and that they do not read, sensors of modulated SUPGs that may change nothing, commands.
+std::vector<std::string> idle_parts(const Problem& problem);
+
+}  // namespace amble::experiment
