@@ -45,19 +45,18 @@ $step  $p_walker_step(state, sensors, targets);
 
 )";
 
-/// Whether the walker hears commands by itself, so that its own text has what senses them.
-bool hears(const ControllerTables& tables) {
-  ControllerTables walker = tables;
-  walker.differential.reset();
-  return walker.reads_commands();
-}
-
 }  // namespace
 
 void add_differential_state(const ControllerTables& tables, CText& text) {
   if (!tables.differential) return;
   text.line("  float factor[4]; /* left, right, between, others */");
   text.line("  uint8_t steered; /* 0 before the first step */");
+}
+
+ControllerTables walker_tables(const ControllerTables& tables) {
+  ControllerTables walker = tables;
+  walker.differential.reset();
+  return walker.reads_commands() ? tables : walker;
 }
 
 std::string c_walker_text(std::string text, const std::string& prefix) {
@@ -72,7 +71,7 @@ std::string c_walker_text(std::string text, const std::string& prefix) {
 
 void add_differential(const ControllerTables& tables, CText& text) {
   const Differential& steering = *tables.differential;
-  const bool own = !hears(tables), heading = steering.heading_gain > 0.0f,
+  const bool own = !walker_tables(tables).differential, heading = steering.heading_gain > 0.0f,
              speeds = steering.full_speed_m_s > 0.0f;
   std::vector<std::string> joints, factors;
   std::vector<std::vector<std::string>> swing;

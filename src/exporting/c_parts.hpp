@@ -32,9 +32,11 @@ void add_commands(const ControllerTables& tables, CText& text);
 std::string c_command_init(const ControllerTables& tables);
 std::string c_command_step(const ControllerTables& tables, const char* sensors);
 
-/// For a controller that is steered by hand: members of the state, the walker's text with names of its own
-/// for what it does at first and in a step, and all around it.
+/// For a controller that is steered by hand: members of the state, the tables that the walker's text is made
+/// of (what senses commands is in it if it hears them itself, and else around it), that text with names of
+/// its own for what it does at first and in a step, and all around it.
 void add_differential_state(const ControllerTables& tables, CText& text);
+ControllerTables walker_tables(const ControllerTables& tables);
 std::string c_walker_text(std::string text, const std::string& prefix);
 void add_differential(const ControllerTables& tables, CText& text);
 

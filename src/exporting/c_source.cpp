@@ -62,8 +62,9 @@ CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, 
   text.line("/* Controller exported by amble {}. See {}.h. */", in_comment(provenance.amble), options.prefix);
   text.line("#include \"{}.h\"", options.prefix);
   text.line("");
+  const ControllerTables of_walker = walker_tables(tables);
   if (std::holds_alternative<SupgTables>(tables.parts)) {
-    add_supg(tables, options, walker);
+    add_supg(of_walker, options, walker);
   } else {
     if (options.arithmetic == Arithmetic::fixed)
       fail(ExitCode::bad_input,
@@ -71,9 +72,9 @@ CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, 
            "exported in fixed point",
            tables.kind);
     if (std::holds_alternative<NeuralTables>(tables.parts))
-      add_neural(tables, walker);
+      add_neural(of_walker, walker);
     else
-      add_oscillators(tables, walker);
+      add_oscillators(of_walker, walker);
   }
   if (tables.differential) {
     text.append(c_walker_text(walker.take(), options.prefix));

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+#include "tests/exporting/champions.hpp"
+#include "tests/exporting/compiled.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace amble::tests {
+namespace {
+
+using controllers::DifferentialSettings;
+using test::TemporaryFolder;
+
+/// Of each kind of controller those that hear nothing, and those that hear commands themselves; with other
+/// sensors, guessed contacts and smoothed targets.
+std::vector<Sample> walkers() {
+  constexpr std::array<std::string_view, 19> chosen{
+      "quadruped_supg", "hexapod_sine",   "recurrent_sine", "quadruped_ctrnn", "ctrnn_runge_kutta",
+      "paper_ctrnn",    "residual",       "filtered",       "modulated",       "modulated_rate",
+      "torque_contact", "shock_contact",  "load_feedback",  "obeying",         "oscillators_reset",
+      "mixed",          "mixed_by_shock", "ctrnn_obeying",  "ctrnn_feeling"};
+  std::vector<Sample> some;
+  for (const auto& samples : {twenty_samples(), seam_samples(), modulated_samples(), sensing_samples()})
+    std::ranges::copy_if(samples, std::back_inserter(some), [&chosen](const Sample& sample) {
+      return std::ranges::find(chosen, sample.name) != chosen.end();
+    });
+  EXPECT_EQ(some.size(), chosen.size());
+  return some;
+}
+
+class EachWalker : public testing::TestWithParam<Sample> {};
+INSTANTIATE_TEST_SUITE_P(SteeredByHand, EachWalker, testing::ValuesIn(walkers()),
+                         [](const auto& sample) { return sample.param.name; });
+
+constexpr std::string_view strict_c99 = "-std=c99 -pedantic -Wall -Wextra -Werror -DWALKER_SELF_TEST";
+
+TEST_P(EachWalker, CompilesAndPassesItsSelfTestWhateverTheGains) {
+  experiment::Champion champion = evolve(GetParam());
+  champion.problem.set_commands(
+      {.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}, {0.3, 0.3}, {0.2, -0.3}, {}}});
+  for (const auto& gains :
+       {DifferentialSettings{.turn_gain = 2.0}, DifferentialSettings{.full_speed_m_s = 0.3},
+        DifferentialSettings{.turn_gain = 2.0, .heading_gain = 0.5},
+        DifferentialSettings{.turn_gain = 2.0,
+        .full_speed_m_s = 0.3,
+        .heading_gain = 0.5,
+        .change_s = 0.2,
+        .about = controllers::SwingCentre::middle}}) {
+    SCOPED_TRACE(testing::Message() << "turn_gain = " << gains.turn_gain << ", heading_gain = "
+                                    << gains.heading_gain << ", full_speed_m_s = " << gains.full_speed_m_s);
+    const TemporaryFolder scratch;
+    champion.problem.set_differential(gains);
+    write_walker(scratch.path(), champion);
+    ASSERT_EQ(compile(scratch.path(), "gcc", std::string(strict_c99), {}, "self"), "");
+    EXPECT_EQ(run_shell("'" + (scratch / "self").string() + "'").out,
+              "walker: 100 ticks, largest error 0 rad\n");
+  }
+}
+
+}  // namespace
+}  // namespace amble::tests
