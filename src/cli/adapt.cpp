@@ -86,8 +86,10 @@ void add_adapt(CLI::App& app, Action& action) {
   command
       ->add_option("--damage", options->damage,
                    "Such as missing:FL,weak:FR_knee=0.3, or a config with [damage] (docs/DAMAGE.md)")
+      ->type_name("DAMAGE|FILE")
       ->required();
   command->add_option("--engine", options->settings.engine, "The engine that stands for reality")
+      ->type_name(engine_values())
       ->capture_default_str();
   command->add_option("--trials", options->settings.most_trials, "Most trials of the search")
       ->check(between(1, 1000))

@@ -148,9 +148,11 @@ OptionSummary summary_of(const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) summary.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) summary.names.push_back("--" + name);
   const std::string type = option.get_type_name();
-  summary.choices = type == key_value ? assignable_keys() : choices_of(type);
+  // "COMMANDS|FILE": what is typed, or a file.
+  const bool or_file = type.ends_with("|FILE");
+  if (!or_file) summary.choices = type == key_value ? assignable_keys() : choices_of(type);
   if (option.get_items_expected_max() > 0)
-    summary.value = type.starts_with("TEXT") ? Value::file : Value::other;
+    summary.value = or_file || type.starts_with("TEXT") ? Value::file : Value::other;
   return summary;
 }
 

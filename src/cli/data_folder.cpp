@@ -31,9 +31,9 @@ namespace {
 
 /// Options whose values are written, or are words.
 bool takes_no_input(std::string_view option) {
-  constexpr std::array<std::string_view, 10> options{"-o",      "--out",    "--csv",      "--figures",
+  constexpr std::array<std::string_view, 11> options{"-o",      "--out",    "--csv",      "--figures",
                                                      "--json",  "--record", "--patterns", "--mjcf",
-                                                     "--slurm", "--title"};
+                                                     "--slurm", "--title",  "--draw"};
   return std::ranges::find(options, option) != options.end();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/figures/cppn_graph.hpp"
@@ -31,7 +32,8 @@ void refuse_unless_ours(const DrawOptions& options) {
       fail(ExitCode::bad_input, "--out {}: expected a name that ends in .svg or .dot", options.out->string());
     io::refuse_to_replace(*options.out, kind == ".svg" ? "<svg" : "digraph", "a drawing");
   }
-  if (options.patterns) io::refuse_to_replace(*options.patterns, "<svg", "a drawing");
+  if (options.patterns) check_drawing("--patterns", *options.patterns);
+  check_distinct({{"--out", options.out.value_or("")}, {"--patterns", options.patterns.value_or("")}});
 }
 
 std::string patterns_svg(const experiment::Champion& champion, const fs::path& path) {

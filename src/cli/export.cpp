@@ -27,26 +27,22 @@ struct ExportOptions {
   std::optional<std::string> steering;
 };
 
+/// Throws UserError: an option that the format knows nothing of.
+void check_options(const ExportOptions& options) {
+  if (options.fixed && options.format != "c") fail(ExitCode::bad_input, "--fixed: only with --format c");
+  if (options.steering && options.format == "mjcf")
+    fail(ExitCode::bad_input, "--steering: only with --format c or json; mjcf is the robot alone");
+}
+
 std::string mjcf_of(const experiment::Champion& champion) {
   return morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
 }
 
-/// As `amble trial --steering`. A walker that was told nothing is told straight on, both turns and a stop in
-/// the ticks of the self-test.
-void steer_by_hand(experiment::Champion& champion, const std::string& gains) {
-  if (champion.problem.command.kind == trial::CommandKind::none)
-    champion.problem.set_commands(
-        {.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}, {0.3, 0.3}, {0.2, -0.3}, {}}});
-  champion.problem.set_differential(experiment::parse_differential(gains, "--steering"));
-}
-
 ExitCode run_export(const ExportOptions& options) {
-  if (options.fixed && options.format != "c") fail(ExitCode::bad_input, "--fixed: only with --format c");
-  const fs::path path = fs::is_directory(options.champion)
-                            ? experiment::find_run(options.champion).best_champion()
-                            : options.champion;
+  check_options(options);
+  const fs::path path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
-  if (options.steering) steer_by_hand(champion, *options.steering);
+  if (options.steering) exporting::steer_by_hand(champion, *options.steering, "--steering");
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
       fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
@@ -89,9 +85,11 @@ void add_export(CLI::App& app, Action& action) {
       "This file (c: FILE.c, beside it FILE.h; its name is the prefix of all names). Without: "
       "json and mjcf to the standard output");
   command->add_flag("--fixed", options->fixed, "c: SUPGs in fixed point, without any floating point");
-  command->add_option("--steering", options->steering,
-                      "GAINS: steered by hand, as by `amble trial --steering`, e.g. \"turn_gain = 4, "
-                      "full_speed_m_s = 0.28\"");
+  command
+      ->add_option("--steering", options->steering,
+                   "c and json: steered by hand, as by `amble trial --steering`, e.g. \"turn_gain = 4, "
+                   "full_speed_m_s = 0.28\" (docs/STEERING.md)")
+      ->type_name("GAINS");
   add_examples(*command, {{"amble export runs/1 --format c -o walker.c", "for a microcontroller"},
                           {"amble export runs/1 --format mjcf -o robot.xml", ""}});
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });

@@ -174,7 +174,7 @@ void add_repertoire(CLI::App& app, Action& action) {
   command
       ->add_option("--heading-gain", options->heading_gain,
                    "With --switching: rate of turning added for each radian of heading error, 1/s")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(between(0.0, 100.0))
       ->needs(switching)
       ->capture_default_str();
   command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")

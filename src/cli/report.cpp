@@ -7,6 +7,7 @@
 #include <string>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/core/error.hpp"
 #include "amble/experiment/run_paths.hpp"
 #include "amble/io/file.hpp"
@@ -46,13 +47,6 @@ std::vector<Output> outputs(const report::Report& made, const ReportOptions& opt
     for (report::FigureFile& figure : report::figure_files(made))
       files.push_back({*options.figures / figure.name, std::move(figure.svg), "<svg", "a figure"});
   return files;
-}
-
-/// The path as it is written or, if it exists, as it is found through links.
-fs::path resolved(const fs::path& path) {
-  std::error_code error;
-  const fs::path found = fs::weakly_canonical(fs::absolute(path), error);
-  return error ? fs::absolute(path).lexically_normal() : found;
 }
 
 std::string printable(const fs::path& path) {

@@ -11,6 +11,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -61,9 +62,11 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
 void refuse_to_replace_others(const StaticView& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   if (!options.figures) return;
-  io::make_folder(*options.figures);
-  for (const auto name : page::figure_names)
+  for (const auto name : page::figure_names) {
+    check_distinct({{"--out", options.out}, {"--figures", *options.figures / name}});
     io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
+  }
+  io::make_folder(*options.figures);
 }
 
 /// Runs the champion again and reads what was recorded.

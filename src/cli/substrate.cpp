@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
@@ -78,12 +80,13 @@ void show(const SubstrateOptions& options, const experiment::Problem& problem,
 }
 
 ExitCode show_substrate(const SubstrateOptions& options) {
-  if (!options.out.empty()) io::refuse_to_replace(options.out, "<svg", "a drawing");
-  if (options.config.extension() == ".json") {
+  if (!options.out.empty()) check_drawing("--out", options.out);
+  const auto path = experiment::champion_at(options.config);
+  if (path.extension() == ".json") {
     if (!options.overrides.assignments.empty())
-      fail(ExitCode::bad_input, "--set is for a config: {} is a champion", options.config.string());
-    const auto champion = experiment::load_champion(options.config);
-    show(options, champion.problem, drawn(champion, options.config.string()));
+      fail(ExitCode::bad_input, "--set is for a config: {} is a champion", path.string());
+    const auto champion = experiment::load_champion(path);
+    show(options, champion.problem, drawn(champion, path.string()));
     return ExitCode::ok;
   }
   const auto config = experiment::load_config(options.config, options.overrides);
@@ -98,8 +101,10 @@ void add_substrate(CLI::App& app, Action& action) {
       "substrate", "Show the nodes and links of a config's or champion's controller, and draw them");
   auto options = std::make_shared<SubstrateOptions>();
   command
-      ->add_option("CONFIG", options->config,
-                   "Config file (TOML), or champion file, of whose links those are drawn that it has")
+      ->add_option(
+          "CONFIG", options->config,
+          "Config file (TOML), or champion file or run folder (its best champion), of whose links those are "
+          "drawn that it has")
       ->required();
   command
       ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")

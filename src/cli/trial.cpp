@@ -11,6 +11,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
@@ -20,6 +21,7 @@
 #include "amble/experiment/problem/live_inputs.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/experiment/steering.hpp"
 #include "amble/figures/steering_figure.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
@@ -104,20 +106,29 @@ void print_untold(const trial::CommandSettings& command, double duration_s) {
   }
 }
 
-/// `spec`: a config file, or commands in one line (trial::parse_commands).
+/// The [command] of a config. Throws UserError with its place if it says nothing.
+void command_as_in_config(const std::filesystem::path& path, experiment::Champion& champion) {
+  change_as_in(path, [&](const experiment::Config& config) {
+    if (config.command.kind == trial::CommandKind::none)
+      fail_setting({"command.kind"},
+                   "command.kind is none; expected fixed or random, or commands in one line in place of the "
+                   "file, e.g. --command \"0.4,0; 0.4,0.5; 0,0\"");
+    champion.problem.set_commands(config.command);
+  });
+}
+
+/// `spec`: a config file, or commands in one line.
 void command_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
-  trial::CommandSettings command{.kind = trial::CommandKind::fixed};
+  if (seconds) champion.problem.trial.duration_s = *seconds;
+  champion.problem.trial.validate();
   std::error_code error;
   if (std::filesystem::exists(spec, error))
-    command = experiment::load_config(spec, {}).command;
+    command_as_in_config(spec, champion);
   else if (spec.ends_with(".toml"))
     fail(ExitCode::bad_input, "--command: there is no file {}", io::printable(spec));
   else
-    command.stretches = trial::parse_commands(spec);
-  if (seconds) champion.problem.trial.duration_s = *seconds;
-  champion.problem.trial.validate();
-  champion.problem.set_commands(command);
-  print_untold(command, champion.problem.trial.duration_s);
+    experiment::tell(champion.problem, spec, "--command");
+  print_untold(champion.problem.command, champion.problem.trial.duration_s);
 }
 
 /// What it is told, and how it is steered by hand.
@@ -126,8 +137,7 @@ void tell(const TrialOptions& options, experiment::Champion& champion) {
   if (options.steering && champion.problem.command.kind == trial::CommandKind::none)
     fail(ExitCode::bad_input, "--steering: {} was told nothing in its evolution; expected --command as well",
          options.champion.string());
-  if (options.steering)
-    champion.problem.set_differential(experiment::parse_differential(*options.steering, "--steering"));
+  if (options.steering) experiment::steer_by_hand(champion.problem, *options.steering, "--steering");
   if (options.command && !champion.problem.architecture->extra_senses().commands())
     print_message("--command: this champion senses no commands, and walks as it would without\n");
 }
@@ -155,7 +165,6 @@ std::string followed_text(const experiment::Tracking& tracking) {
 /// Where there is no recording that is wanted, `scratch` is one.
 void prepare_to_draw(const TrialOptions& options, const experiment::Champion& champion,
                      std::optional<io::ScratchFile>& scratch) {
-  io::refuse_to_replace(*options.draw, "<svg", "a drawing");
   if (champion.problem.command.kind == trial::CommandKind::none)
     fail(ExitCode::bad_input, "--draw: {} was told nothing in its evolution; expected --command as well",
          options.champion.string());
@@ -193,6 +202,8 @@ ExitCode run_again(const std::filesystem::path& champion_path, const std::filesy
 ExitCode run_trial(const TrialOptions& options) {
   const auto path = experiment::champion_at(options.champion);
   if (options.inputs) return run_again(path, *options.inputs);
+  check_distinct({{"--record", options.record.value_or("")}, {"--draw", options.draw.value_or("")}});
+  if (options.draw) check_drawing("--draw", *options.draw);
   auto champion = experiment::load_champion(path);
   if (options.ground)
     change_as_in(*options.ground,
@@ -249,16 +260,22 @@ ExitCode run_trial(const TrialOptions& options) {
 void add_surroundings(CLI::App& command, TrialOptions& options) {
   command.add_option("--ground", options.ground,
                      "Walk on the [ground] of this config (default: as in its evolution)");
-  command.add_option("--damage", options.damage,
-                     "With the robot damaged as in the [damage] of this config, or as "
-                     "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
-                     "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
-  command.add_option("--command", options.command,
-                     "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
-                     "[command] of this config (default: as in its evolution)");
-  command.add_option("--steering", options.steering,
-                     "Steered by hand: [controller.differential] in one line, e.g. \"turn_gain = 1.5, "
-                     "full_speed_m_s = 0.4\" (default: as in its evolution)");
+  command
+      .add_option("--damage", options.damage,
+                  "With the robot damaged as in the [damage] of this config, or as "
+                  "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
+                  "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)")
+      ->type_name("DAMAGE|FILE");
+  command
+      .add_option("--command", options.command,
+                  "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
+                  "[command] of this config (default: as in its evolution)")
+      ->type_name("COMMANDS|FILE");
+  command
+      .add_option("--steering", options.steering,
+                  "Steered by hand: [controller.differential] in one line, e.g. \"turn_gain = 1.5, "
+                  "full_speed_m_s = 0.4\" (default: as in its evolution; docs/STEERING.md)")
+      ->type_name("GAINS");
   command.add_option("--draw", options.draw,
                      "Draw what it is told beside what it does into this file: both paths from above, speed "
                      "and turn over time (SVG)");

@@ -5,12 +5,16 @@
 #include <memory>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/run_paths.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
 
 Config load_config(const std::filesystem::path& path, const Overrides& overrides) {
+  if (is_run_folder(path))
+    fail(ExitCode::bad_input, "{}: a run folder, and not a config; expected its {}", path.string(),
+         RunPaths(path).config.string());
   const io::TomlDocument document = io::TomlDocument::read(path);
   // The first unknown key of another kind of file would say little.
   if (document.is_list("conditions"))
@@ -44,20 +48,6 @@ Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
   }
   config.robot = fs::absolute(document->folder_of("robot") / config.robot).lexically_normal().string();
   return config;
-}
-
-controllers::DifferentialSettings parse_differential(const std::string& text, const std::string& what) {
-  const auto document = io::TomlDocument::parse("differential = { " + text + " }", what);
-  controllers::DifferentialSettings settings;
-  const auto reader = document.reader();
-  reader->table("differential", settings, {"steering by hand"});
-  reader->finish();
-  if (!settings.any())
-    fail(ExitCode::bad_input,
-         "{}: \"{}\" steers nothing: expected turn_gain, full_speed_m_s or both, e.g. \"turn_gain = 1.5, "
-         "full_speed_m_s = 0.4\"",
-         what, text);
-  return settings;
 }
 
 }  // namespace amble::experiment

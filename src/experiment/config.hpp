@@ -30,8 +30,5 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
 /// header of documents is not installed.
 Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
-/// [controller.differential] in one line, "turn_gain = 1.5, full_speed_m_s = 0.4"; `what` names it in
-/// messages. Throws UserError; also for one that steers nothing.
-controllers::DifferentialSettings parse_differential(const std::string& text, const std::string& what);
 
 }  // namespace amble::experiment

@@ -1,6 +1,7 @@
 #include "amble/exporting/export_file.hpp"
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/steering.hpp"
 #include "amble/exporting/c_text.hpp"
 #include "amble/exporting/json_source.hpp"
 #include "amble/io/file.hpp"
@@ -38,6 +39,13 @@ void check_c_name(const fs::path& out) {
 }
 
 }  // namespace
+
+void steer_by_hand(experiment::Champion& champion, const std::string& gains, const std::string& what) {
+  if (champion.problem.command.kind == trial::CommandKind::none)
+    champion.problem.set_commands(
+        {.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}, {0.3, 0.3}, {0.2, -0.3}, {}}});
+  experiment::steer_by_hand(champion.problem, gains, what);
+}
 
 void write_c(const experiment::Champion& champion, const fs::path& out, Arithmetic arithmetic,
              const std::atomic<bool>& stop) {

@@ -13,6 +13,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/experiment/steering.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/record/levels.hpp"
@@ -76,6 +77,9 @@ std::string place_of(const ledger::StudySpec& study, std::size_t index, std::str
   std::string key = fmt::format("conditions[{}].config", index);
   if (!condition.robot.empty() && names(condition.robot))
     key = fmt::format("conditions[{}].robot", index);
+  else if (!condition.steering.empty() &&
+           (mistake.starts_with("steering:") || names("controller.differential")))
+    key = fmt::format("conditions[{}].steering", index);
   else if (std::ranges::any_of(condition.settings, names))
     key = fmt::format("conditions[{}].settings", index);
   else if (std::ranges::any_of(study.settings, names))

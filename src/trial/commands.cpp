@@ -16,9 +16,9 @@
 namespace amble::trial {
 namespace {
 
-constexpr io::Range speed_range{-100.0, 100.0}, turn_range{-100.0, 100.0}, share_range{0.0, 1.0};
-
 constexpr double longest_s = 1e6;
+constexpr io::Range speed_range{-100.0, 100.0}, turn_range{-100.0, 100.0}, share_range{0.0, 1.0},
+    seconds_range{0.0, longest_s};
 
 /// At most as many as the longest trial has; the sum of two is a number, too.
 int ticks_of(double time_s, double timestep_s) {
@@ -52,11 +52,13 @@ std::vector<std::string_view> split(std::string_view text, char at) {
   }
 }
 
+/// Nothing for what is no number; infinity for one that is too large.
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
 #ifdef __cpp_lib_to_chars
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (error == std::errc::result_out_of_range) value = HUGE_VAL;
+  const bool whole = error != std::errc::invalid_argument && end == text.data() + text.size();
 #else
   // The standard library for WebAssembly reads no floating point in this way, and has one locale only.
   char* end = nullptr;
@@ -64,7 +66,34 @@ std::optional<double> number_of(std::string_view text) {
   value = std::strtod(copy.c_str(), &end);
   const bool whole = !copy.empty() && end == copy.c_str() + copy.size();
 #endif
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+/// Throws UserError: not in its range, or no number at all.
+void check_range(std::string_view command, const char* name, const char* unit, double value,
+                 const io::Range& range) {
+  if (value >= range.lowest && value <= range.highest) return;
+  fail(ExitCode::bad_input, "command \"{}\": {} = {}: expected a number from {} to {} ({})",
+       io::printable(std::string(command)), name, value, range.lowest, range.highest, unit);
+}
+
+/// `part`: a command of `text`.
+CommandStretch parse_command(std::string_view part, std::string_view text) {
+  std::vector<double> numbers;
+  const auto words = split(part, ',');
+  for (const std::string_view word : words)
+    if (const auto number = number_of(word)) numbers.push_back(*number);
+  if (numbers.size() != words.size() || words.size() < 2 || words.size() > 3)
+    fail(ExitCode::bad_input,
+         "command \"{}\": expected SPEED,TURN or SPEED,TURN,SECONDS (m/s, rad/s to the left, s) with a "
+         "semicolon between two commands, e.g. \"0.4,0; 0.4,0.5; 0,0\"",
+         io::printable(std::string(part.empty() ? text : part)));
+  const CommandStretch stretch{numbers[0], numbers[1], words.size() == 3 ? numbers[2] : 0.0};
+  check_range(part, "speed", "m/s", stretch.speed_m_s, speed_range);
+  check_range(part, "turn", "rad/s to the left", stretch.turn_rad_s, turn_range);
+  check_range(part, "seconds", "s; 0 or none: a share of what the others leave", stretch.seconds,
+              seconds_range);
+  return stretch;
 }
 
 }  // namespace
@@ -73,7 +102,7 @@ void CommandStretch::describe(io::SettingsVisitor& visitor) {
   visitor.number("speed_m_s", speed_m_s, speed_range,
                  {"speed along the robot's own forward axis, m/s; negative: backwards"});
   visitor.number("turn_rad_s", turn_rad_s, turn_range, {"rate of turning to the left, rad/s"});
-  visitor.number("seconds", seconds, {0.0, longest_s},
+  visitor.number("seconds", seconds, seconds_range,
                  {"how long, s; 0: an equal share of the time that the others leave of the trial"});
 }
 
@@ -190,22 +219,7 @@ CommandSchedule drawn_commands(const CommandSettings& settings, int steps, doubl
 
 std::vector<CommandStretch> parse_commands(std::string_view text) {
   std::vector<CommandStretch> stretches;
-  for (const std::string_view part : split(text, ';')) {
-    std::vector<double> numbers;
-    for (const std::string_view word : split(part, ','))
-      if (const auto number = number_of(word)) numbers.push_back(*number);
-    const std::size_t words = split(part, ',').size();
-    CommandStretch stretch;
-    const bool complete = numbers.size() == words && (words == 2 || words == 3);
-    if (complete) stretch = {numbers[0], numbers[1], words == 3 ? numbers[2] : 0.0};
-    if (!complete || std::fabs(stretch.speed_m_s) > 100.0 || std::fabs(stretch.turn_rad_s) > 100.0 ||
-        stretch.seconds < 0.0 || stretch.seconds > longest_s)
-      fail(ExitCode::bad_input,
-           "command \"{}\": expected SPEED,TURN or SPEED,TURN,SECONDS (m/s, rad/s to the left, s), e.g. "
-           "\"0.4,0; 0.4,0.5; 0,0\"",
-           io::printable(std::string(part)));
-    stretches.push_back(stretch);
-  }
+  for (const std::string_view part : split(text, ';')) stretches.push_back(parse_command(part, text));
   return stretches;
 }
 

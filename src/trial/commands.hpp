@@ -102,8 +102,8 @@ std::optional<CommandSchedule> planned_commands(const CommandSettings& settings,
 CommandSchedule drawn_commands(const CommandSettings& settings, int steps, double timestep_s, Stream stream,
                                bool mirror);
 
-/// Stretches in one line, "SPEED,TURN[,SECONDS]; …", in the units of CommandStretch. Throws UserError for
-/// another form, speeds and turns beyond ± 100, negative seconds.
+/// Stretches in one line, "SPEED,TURN[,SECONDS]; …", in the units of CommandStretch. Throws UserError,
+/// which names the command, for another form and numbers beyond the ranges of CommandStretch.
 std::vector<CommandStretch> parse_commands(std::string_view text);
 
 }  // namespace amble::trial

@@ -121,7 +121,7 @@ TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
                  "controller.substrate.properties[1].output = \"offset\": the CPPN has no such output");
   const std::string links = "controller.substrate.links=[{from=\"FL.knee\", to=\"tail\"}]";
   const std::string ctrnn = source + "/configs/authors/ctrnn-objective.toml";
-  expect_refusal({"substrate", ctrnn, "--set", links, "-o", out_}, ExitCode::bad_input,
+  expect_refusal({"substrate", ctrnn, "--set", links, "-o", out_ + ".svg"}, ExitCode::bad_input,
                  "controller.substrate.links[0].to = \"tail\": there is no node and no group of that name");
   expect_refusal({"substrate", config_with("[controller.substrate]\nnodes = [\n  { nam = \"a\" },\n]")},
                  ExitCode::bad_input,

@@ -88,6 +88,9 @@ TEST_F(BashCompletion, OffersFilesWhereAPathIsExpectedAndNothingWhereANumberIs) 
   EXPECT_THAT(offered({"amble", "evolve", "walk.toml", "--out", ""}),
               UnorderedElementsAre("walk.toml", "runs of may"));
   EXPECT_THAT(offered({"amble", "evolve", "walk.toml", "--seed", ""}), ElementsAre());
+  for (const char* option : {"--command", "--damage"})
+    EXPECT_THAT(offered({"amble", "trial", option, "w"}), ElementsAre("walk.toml")) << "or in one line";
+  EXPECT_THAT(offered({"amble", "trial", "--steering", ""}), ElementsAre());
 }
 
 TEST_F(BashCompletion, KnowsEveryCommandAndOptionThatHelpShows) {

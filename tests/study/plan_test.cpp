@@ -206,6 +206,12 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
   EXPECT_THAT(refused("heading_gain = 0"), testing::HasSubstr("steers nothing"));
   EXPECT_THAT(refused("turn_gan = 1"), testing::HasSubstr("turn_gain"));
   EXPECT_THAT(refused("turn_gain = 1, joint_types = [\"toe\"]"), testing::HasSubstr("no joint type toe"));
+  study.where = [](const std::string& key) { return "s.toml:" + key; };
+  EXPECT_THAT(
+      refused("foo = 1"),
+      testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': steering: unknown key 'foo'"));
+  EXPECT_THAT(refused("turn_gain = 1, joint_types = [\"toe\"]"),
+              testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': "));
 }
 
 TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {

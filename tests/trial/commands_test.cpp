@@ -123,6 +123,24 @@ TEST(Commands, AreReadFromOneLine) {
     EXPECT_THROW(parse_commands(bad), UserError) << bad;
 }
 
+TEST(Commands, OutOfTheirRangesAreRefusedWithTheRange) {
+  const auto refusal = [](const char* text) -> std::string {
+    try {
+      parse_commands(text);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("0,0; 1e3,0"),
+            "command \"1e3,0\": speed = 1000: expected a number from -100 to 100 (m/s)");
+  EXPECT_EQ(refusal("0,-101"),
+            "command \"0,-101\": turn = -101: expected a number from -100 to 100 (rad/s to the left)");
+  for (const char* const bad : {"nan,0", "-inf,0", "1e400,0", "0,nan", "0,0,-1", "0,0,1e300"})
+    EXPECT_NE(refusal(bad).find(": expected a number from "), std::string::npos) << refusal(bad);
+  EXPECT_EQ(refusal("0.2,0;").find("command \"0.2,0;\": expected SPEED,TURN"), 0u);
+}
+
 TEST(Commands, OfTheLongestTimesAndShortestTicksCountOn) {
   CommandSettings settings{.kind = CommandKind::fixed,
                            .stretches = {{0.1, 0.0, 1e6}, {0.2, 0.0, 1e6}, {0.3, 0.0, 1e6}},
