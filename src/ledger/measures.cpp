@@ -211,6 +211,11 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
 }
 
+bool is_of_seam(std::string_view measure) {
+  const auto found = std::ranges::find(test_measures, split(measure).measure, &TestMeasure::name);
+  return found != test_measures.end() && found->needs == Requires::seam;
+}
+
 const TestSpec* test_of(const StudySpec& study, std::string_view measure) {
   const std::string_view test = split(measure).test;
   return test.empty() ? nullptr : study.find_test(test);

@@ -38,6 +38,10 @@ bool is_measure(const StudySpec& study, std::string_view name);
 /// The test that a measure is of; null for one of runs and maps, and where there is no such test.
 const TestSpec* test_of(const StudySpec& study, std::string_view measure);
 
+/// Whether a measure is of what targets do from cycle to cycle (TestSpec::seam), which controllers without
+/// timers never give.
+bool is_of_seam(std::string_view measure);
+
 /// All names that is_measure() can know, for messages: "train_m, hidden, …, TEST.distance_m, .upright_s, …".
 std::string measure_names();
 

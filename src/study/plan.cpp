@@ -16,6 +16,7 @@
 #include "amble/experiment/steering.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
 
 namespace amble::study {
@@ -114,6 +115,31 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
   }
   condition.hash = config_hash(condition.config, condition.robot);
   return condition;
+}
+
+bool has_timers(const PlannedCondition& condition) {
+  const auto problem = experiment::Problem::make(condition.config, condition.robot);
+  return std::ranges::any_of(problem.architecture->make_batch(1)->state_names(),
+                             [](const std::string& name) { return name.starts_with("timer."); });
+}
+
+/// Throws UserError: a claim is about jumps from cycle to cycle of a condition whose legs have no cycles.
+void check_seam_claims(const Plan& plan) {
+  for (std::size_t i = 0; i < plan.study.claims.size(); ++i) {
+    const ledger::ClaimSpec& claim = plan.study.claims[i];
+    for (const PlannedCondition& condition : plan.conditions) {
+      const std::string& name = condition.spec.name;
+      if (!ledger::is_of_seam(claim.measure) || (claim.condition != name && claim.against != name) ||
+          has_timers(condition))
+        continue;
+      const std::string key = fmt::format("claims[{}].measure", i);
+      throw plan.study.error_at(
+          key,
+          fmt::format("'{}' = \"{}\": the controller of condition '{}' is of kind {}, which has no cycles "
+                      "that targets could jump between; expected another measure or condition",
+                      key, claim.measure, name, condition.config.controller.kind));
+    }
+  }
 }
 
 /// Why a record does not fit; empty if it does, or only lacks tests.
@@ -268,6 +294,7 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
     seeds.push_back(study.seeds_of(study.conditions[i]));
     most_seeds = std::max(most_seeds, seeds.back().size());
   }
+  check_seam_claims(plan);
   for (std::size_t s = 0; s < most_seeds; ++s)
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const std::size_t condition = (i + s) % seeds.size();

@@ -214,6 +214,30 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
               testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': "));
 }
 
+TEST(Plan, RefusesAClaimOnJumpsFromCycleToCycleOfControllersWithoutCycles) {
+  auto study = small_study();
+  study.conditions = {condition("jumps", "authors/supg-objective"),
+                      condition("turns", "authors/ctrnn-objective")};
+  study.tests = {trial_test("walk", 2.0)};
+  study.tests[0].seam = true;
+  auto& claim = study.claims.emplace_back();
+  claim.text = "They jump less.";
+  claim.measure = "walk.jump_rad";
+  claim.condition = "jumps";
+  EXPECT_NO_THROW(make_plan(study, "out"));
+  claim.against = "turns";
+  try {
+    make_plan(study, "out");
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("'claims[0].measure' = \"walk.jump_rad\": the controller of "
+                                    "condition 'turns' is of kind ctrnn, which has no cycles"));
+  }
+  study.claims[0].measure = "walk.distance_m";
+  EXPECT_NO_THROW(make_plan(study, "out"));
+}
+
 TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {
   auto study = small_study();
   const auto refusal = [&] {
