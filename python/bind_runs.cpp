@@ -5,6 +5,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
+#include "amble/experiment/steering.hpp"
 #include "amble/exporting/export_file.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
@@ -109,6 +110,7 @@ py::dict result_dict(const experiment::TrialResult& result) {
   dict["score"] = result.value();
   dict["seconds"] = result.seconds;
   dict["steps"] = result.steps;
+  if (result.tracking) dict["tracking"] = result.tracking->tracking;
   return dict;
 }
 
@@ -130,9 +132,26 @@ py::dict facts_of(const ReadableChampion& self) {
   return facts;
 }
 
-py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std::optional<std::string> engine,
-               const py::object& record) {
+/// What it is told and how it is steered by hand, if these are given; as `amble trial` (docs/STEERING.md).
+experiment::Problem told_problem(const ReadableChampion& self, std::optional<double> seconds,
+                                 const std::optional<std::string>& command,
+                                 const std::optional<std::string>& steering) {
+  experiment::Problem problem = self.value.problem;
+  if (seconds) problem.trial.duration_s = *seconds;
+  problem.trial.validate();
+  if (command) experiment::tell(problem, *command, "command");
+  if (steering && problem.command.kind == trial::CommandKind::none)
+    throw py::value_error(
+        "steering: the champion was told nothing in its evolution; expected command as well");
+  if (steering) experiment::steer_by_hand(problem, *steering, "steering");
+  return problem;
+}
+
+py::dict run_trial(const ReadableChampion& self, std::optional<double> seconds,
+                   std::optional<std::string> engine, const py::object& record,
+                   const std::optional<std::string>& command, const std::optional<std::string>& steering) {
   check_seconds(seconds);
+  const auto problem = told_problem(self, seconds, command, steering);
   experiment::ReplayOptions how{
       .seconds = seconds, .engine = engine, .origin = self.origin(), .trace = false};
   if (!record.is_none()) {
@@ -142,7 +161,7 @@ py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std:
   std::optional<experiment::Replay> replay;
   Interruptible interruptible;
   interruptible.run(
-      [&] { replay = experiment::replay(self.value.problem, self.value.genome, how, interruptible.stop()); });
+      [&] { replay = experiment::replay(problem, self.value.genome, how, interruptible.stop()); });
   py::dict result = result_dict(replay->result);
   py::dict events;
   for (const auto& [name, count] : replay->events) events[py::str(std::string(name))] = count;
@@ -177,17 +196,22 @@ py::object gait_of(const ReadableChampion& self, std::optional<double> seconds,
 }
 
 /// By its ending, as `amble export` writes it.
-std::string export_champion(const ReadableChampion& self, const py::object& path, bool fixed) {
+std::string export_champion(const ReadableChampion& self, const py::object& path, bool fixed,
+                            const std::optional<std::string>& steering) {
   const auto file = path_of(path);
   const std::string ending = file.extension().string();
   if (ending != ".c" && ending != ".json" && ending != ".xml")
     throw py::value_error(fmt::format(
         "path: {}: expected a name that ends in .c, .json or .xml (the robot, for MuJoCo)", file.string()));
   if (fixed && ending != ".c") throw py::value_error("fixed: only with a path that ends in .c");
+  if (steering && ending == ".xml")
+    throw py::value_error("steering: only with a path that ends in .c or .json");
+  experiment::Champion champion = self.value;
+  if (steering) exporting::steer_by_hand(champion, *steering, "steering");
   Interruptible interruptible;
   interruptible.run([&] {
     if (ending == ".c") {
-      exporting::write_c(self.value, file,
+      exporting::write_c(champion, file,
                          fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
                          interruptible.stop());
       return;
@@ -196,8 +220,8 @@ std::string export_champion(const ReadableChampion& self, const py::object& path
     io::refuse_to_replace(file, json ? exporting::export_json_start : "<mujoco",
                           json ? "a JSON document" : "an MJCF model");
     const std::string text =
-        json ? exporting::export_json(self.value, interruptible.stop())
-             : morphology::simulation_mjcf(self.value.problem.robot, self.value.problem.trial.timestep_s);
+        json ? exporting::export_json(champion, interruptible.stop())
+             : morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
     if (!text.empty()) io::write_file(file, text);
   });
   return file.string();
@@ -205,14 +229,13 @@ std::string export_champion(const ReadableChampion& self, const py::object& path
 
 py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
                  std::optional<std::string> engine, std::string level, int trials, std::optional<int> jobs,
-                 const py::object& noise) {
+                 const py::object& noise, const std::optional<std::string>& command,
+                 const std::optional<std::string>& steering) {
   check_seconds(seconds);
   const auto choice = trial_choice(std::move(level), noise, trials);
   const int workers = jobs_of(jobs);
-  experiment::Problem problem = self.value.problem;
-  if (seconds) problem.trial.duration_s = *seconds;
+  experiment::Problem problem = told_problem(self, seconds, command, steering);
   if (engine) problem.engine = *engine;
-  problem.trial.validate();
   std::optional<std::vector<experiment::TrialResult>> results;
   std::string used;
   Interruptible interruptible;
@@ -247,10 +270,11 @@ without noise (docs/GAIT.md): the dict that `amble gait --json` writes.
 
 undisturbed: the trial without noise instead. The rest as typical(). Raises Error.)")
       .def("export", export_champion, py::arg("path"), py::kw_only(), py::arg("fixed") = false,
+           py::arg("steering") = py::none(),
            R"(Writes it for use without amble (docs/EXPORT.md); returns the path, a str.
 
 path: FILE.c (beside it FILE.h; its name is the prefix of all names), FILE.json, or FILE.xml (the robot, for MuJoCo).
-fixed: SUPGs in C without floating point. Raises Error, ValueError for another ending.)");
+fixed: SUPGs in C without floating point. steering: gains, as in trial(); not for the robot. Raises Error, ValueError for another ending.)");
 }
 
 void bind_champion(py::module_& module) {
@@ -285,23 +309,27 @@ objective (what made it the champion), result (of its trial without noise: outco
 steps), referees (the same by engine).)")
       .def_property_readonly(
           "genome", [](const ReadableChampion& self) { return self.value.genome; }, "Its CPPN, a Genome.")
-      .def("trial", trial, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
-           py::arg("record") = py::none(),
+      .def("trial", run_trial, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
+           py::arg("record") = py::none(), py::kw_only(), py::arg("command") = py::none(),
+           py::arg("steering") = py::none(),
            R"(Walks again, without noise; as in its evolution unless an argument says otherwise.
 
 seconds: length, s. engine: "ode", "batch", "mujoco" or "mujoco-model". record: path of a recording to write.
-Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name).)")
+command: what it is told, "SPEED,TURN[,SECONDS]; ..." in m/s, rad/s to the left and s. steering: gains by which it is
+steered by hand, "turn_gain = 1.5, full_speed_m_s = 0.4" (docs/STEERING.md).
+Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name), and of one that is told
+something tracking, 0 to 1 (docs/SCORES.md).)")
       .def("typical", typical, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
            py::arg("level") = "", py::arg("trials") = 0, py::kw_only(), py::arg("jobs") = py::none(),
-           py::arg("noise") = py::none(),
+           py::arg("noise") = py::none(), py::arg("command") = py::none(), py::arg("steering") = py::none(),
            R"(What it typically does: many trials that evolution has not met, each disturbed otherwise.
 
-seconds, engine: as in trial(). level: "own" (the noise of its evolution), "control", "micro", "100-micro"
+seconds, engine, command, steering: as in trial(). level: "own" (the noise of its evolution), "control", "micro", "100-micro"
 or "milli" (starts that differ by so many radians); default: its own noise, or "milli" without any.
 noise: path of a config file whose [noise] disturbs instead. trials: their number (default: 64, or 16 in engines
 that run one at a time). jobs: workers.
 Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
-fell_share, trials (a list of dicts as trial() returns them, without events).)")
+fell_share, trials (a list of dicts as trial() returns them, without events and tracking).)")
       .def("__repr__", [](const ReadableChampion& self) {
         return fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
                            self.value.objective(), self.path.empty() ? "not saved" : self.path.string());
