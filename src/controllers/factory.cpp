@@ -167,8 +167,8 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
                  .defaults_are_implied = true});
   visitor.table(
       "differential", differential,
-      {.what = "steering by hand of a controller that senses no commands: the legs on the inner side of "
-               "a turn swing less far; off by default",
+      {.what = "steering by hand around a controller, whether it senses commands or not: the legs on the "
+               "inner side of a turn swing less far; off by default",
        .defaults_are_implied = true});
   visitor.table("switching", switching,
                 {.what = "gaits among which SUPGs switch at their triggers, as commanded; off by default",
