@@ -26,7 +26,7 @@ struct ControllerSettings {
   SensingSettings sensing = {};    ///< how sensors are read: by default at once and exactly
   OscillatorSettings oscillators;  ///< kind "oscillators": a sine for each joint
   MixedSettings mixed = {};        ///< kind "mixed": how strongly neurons and sensors act on SUPGs
-  DifferentialSettings differential = {};  ///< steering by hand of a controller that senses no commands; off
+  DifferentialSettings differential = {};  ///< steering by hand around what any kind does; off
   SwitchingSettings switching = {};        ///< kind "supg": gaits to switch between, as commanded; off
   io::OwnSettings own;                     ///< a kind that a program or a plugin has added
 

@@ -87,7 +87,7 @@ struct MixedSettings {
 enum class SwingCentre { start_pose, middle };
 inline constexpr std::array<std::string_view, 2> swing_centre_names{"start_pose", "middle"};
 
-/// Differential steering by hand, of a controller that senses no commands itself. Off by default.
+/// Differential steering by hand, around a controller that may sense commands itself or not. Off by default.
 struct DifferentialSettings {
   double turn_gain = 0.0;       ///< s/rad: inner legs swing by 1 − turn_gain × |turn|
   double full_speed_m_s = 0.0;  ///< the command at which legs swing as evolved; 0: speed is not steered

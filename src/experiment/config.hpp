@@ -30,5 +30,4 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
 /// header of documents is not installed.
 Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
-
 }  // namespace amble::experiment
