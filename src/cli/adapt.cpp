@@ -102,16 +102,13 @@ void add_adapt(CLI::App& app, Action& action) {
   command
       ->add_option("--noise-variance", options->settings.search.noise_variance,
                    "Variance of a trial (the mean of its episodes), as a share of the map's best squared "
-                   "(0.001: trials nearly repeat; "
-                   "0.01: they "
-                   "differ by a tenth of it)")
+                   "(0.001: trials nearly repeat; 0.01: they differ by a tenth of it)")
       ->check(between(1e-9, 1e3))
       ->capture_default_str();
   command
       ->add_option("--exploration", options->settings.search.exploration,
                    "Weight κ of the upper confidence bound (UCB) that chooses the next gait: standard "
-                   "deviations by which "
-                   "an uncertain one counts as better")
+                   "deviations by which an uncertain one counts as better")
       ->check(between(0.0, 1e3))
       ->capture_default_str();
   command

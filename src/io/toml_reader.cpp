@@ -176,7 +176,8 @@ class TomlReader final : public SettingsReader {
   }
 
   [[noreturn]] void refuse(std::string_view key, const TomlNode& node, std::string_view expected) const {
-    refuse_at(path_of(key), node, expected);
+    // A value in place of a table is named by the table's key.
+    refuse_at(tables_.back().short_for.empty() ? path_of(key) : tables_.back().path, node, expected);
   }
 
   [[noreturn]] static void refuse_at(const std::string& path, const TomlNode& node,

@@ -61,7 +61,7 @@ TEST_F(SteeringOptions, GainsAreNamedAsTheyWereWritten) {
 
 TEST_F(SteeringOptions, WhatIsNoGainsIsQuotedWithAnExample) {
   for (const std::string gains : {"", "turn_gain =", "turn_gain = 1,", "turn_gain = 1 full_speed_m_s = 2",
-                                  "turn_gain = [1", "configs/steer/supg.toml", "[x]", "= 1"})
+                                  "turn_gain = [1", "my_robot/steer.toml", "[x]", "= 1"})
     expect_refused_gains(gains, "--steering: \"" + gains +
                                     "\": expected gains, KEY = VALUE with a comma between two "
                                     "(docs/STEERING.md), e.g. \"turn_gain = 1.5, full_speed_m_s = 0.4\"");
