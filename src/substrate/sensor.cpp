@@ -57,6 +57,7 @@ int index_of(const Items& items, std::string_view name) {
 template <typename Items>
 std::string names_of(const Items& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(item.name);
   return io::first_few(names);
 }
