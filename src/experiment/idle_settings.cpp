@@ -50,12 +50,19 @@ bool senses_nothing(const Config& config) {
   return config.controller.kind == "supg" && config.controller.supg.modulation.sensors.empty();
 }
 
-/// Only random commands have these.
-constexpr std::array random_keys{
-    "command.stretch_s",      "command.least_speed_m_s", "command.most_speed_m_s", "command.most_turn_rad_s",
-    "command.straight_share", "command.stop_share",      "command.mirrored"};
+bool is_told_by_list(const Config& config) {
+  return config.command.kind == trial::CommandKind::fixed;
+}
 
-constexpr std::array<IdleRule, 15> idle_rules{
+bool has_no_trigger(const Config& config) {
+  return has_supgs(config) && config.controller.supg.trigger == controllers::Trigger::none;
+}
+
+bool grows_nothing(const Config& config) {
+  return config.search.kind == "cma-es";
+}
+
+constexpr std::array<IdleRule, 23> idle_rules = {
     {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape_by", "",
@@ -92,10 +99,8 @@ constexpr std::array<IdleRule, 15> idle_rules{
      {"controller.supg.modulation.rate", "",
       [](const Config& config) { return config.controller.kind == "mixed"; },
       "controller.kind is \"mixed\", whose links have the rate"},
-     {"controller.supg.modulation.re", "",  // reset, refractory_ticks
-      [](const Config& config) {
-        return has_supgs(config) && config.controller.supg.trigger == controllers::Trigger::none;
-      },
+     {"controller.supg.modulation.reset", "", has_no_trigger, "controller.supg.trigger is \"none\""},
+     {"controller.supg.modulation.refractory_ticks", "", has_no_trigger,
       "controller.supg.trigger is \"none\""},
      {"controller.differential.change_s", "",
       [](const Config& config) { return !config.controller.differential.any(); },
@@ -103,33 +108,16 @@ constexpr std::array<IdleRule, 15> idle_rules{
      {"controller.switching.", "controller.switching.gaits",
       [](const Config& config) { return !config.controller.switching.any(); },
       "controller.switching.gaits is empty"},
-     {"genome.initial_link_probability", "",
-      [](const Config& config) { return config.search.kind == "cma-es"; },
+     {"command.stretch_s", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.least_speed_m_s", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.most_speed_m_s", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.most_turn_rad_s", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.straight_share", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.stop_share", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"command.mirrored", "", is_told_by_list, "command.kind is \"fixed\""},
+     {"genome.initial_link_probability", "", grows_nothing,
       "search.kind is \"cma-es\", which begins with all links"},
-     {"innovations.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
-      "search.kind is \"cma-es\", which adds no nodes and links"}}};
-
-}  // namespace
-
-std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments) {
-  std::vector<std::string> idle;
-  for (const std::string& assignment : assignments) {
-    const std::string_view key = std::string_view(assignment).substr(0, assignment.find('='));
-    for (const auto& reason :
-         {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
-          idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
-      if (reason) idle.push_back(*reason);
-    for (const IdleRule& rule : idle_rules)
-      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
-        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
-    if (config.command.kind == trial::CommandKind::fixed &&
-        std::ranges::find(random_keys, key) != random_keys.end())
-      idle.push_back(fmt::format("{} has no effect: command.kind is \"fixed\"", key));
-  }
-  return idle;
-}
-
-namespace {
+     {"innovations.", "", grows_nothing, "search.kind is \"cma-es\", which adds no nodes and links"}}};
 
 /// Sensors that settings name and no controller reads.
 void find_unread_sensors(const Problem& problem, std::vector<std::string>& idle) {
@@ -146,6 +134,21 @@ void find_unread_sensors(const Problem& problem, std::vector<std::string>& idle)
 }
 
 }  // namespace
+
+std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments) {
+  std::vector<std::string> idle;
+  for (const std::string& assignment : assignments) {
+    const std::string_view key = std::string_view(assignment).substr(0, assignment.find('='));
+    for (const auto& reason :
+         {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
+          idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
+      if (reason) idle.push_back(*reason);
+    for (const IdleRule& rule : idle_rules)
+      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
+        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
+  }
+  return idle;
+}
 
 std::vector<std::string> idle_parts(const Problem& problem) {
   std::vector<std::string> idle;

@@ -19,10 +19,7 @@ namespace {
 constexpr std::string_view example = "\"turn_gain = 1.5, full_speed_m_s = 0.4\"";
 
 std::string trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\n";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
+  return std::string(io::trimmed(text, " \t\r\n"));
 }
 
 /// What is between commas, semicolons and ends of lines that are neither in brackets nor in quotes.

@@ -31,6 +31,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string first_few(std::span<const std::string> names) {
   constexpr std::size_t all = 6, few = 4;
   if (names.size() <= all) return fmt::format("{}", fmt::join(names, ", "));

@@ -15,6 +15,9 @@ std::string printable(std::string_view text);
 /// part. They point into `text`.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+/// `text` without the blanks at its ends; it points into `text`.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
+
 /// "a, b, c, d and 8 more": all of a list of up to six, else the first four, so that a warning stays
 /// readable.
 std::string first_few(std::span<const std::string> names);

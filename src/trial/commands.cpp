@@ -35,23 +35,6 @@ std::vector<CommandStretch> all_round(const CommandSettings& settings) {
   return {{speed_m_s, 0.0}, {speed_m_s, turn_rad_s}, {speed_m_s, -turn_rad_s}, {0.0, 0.0}};
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t";
-  const std::size_t first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(at);
-    parts.push_back(trimmed(text.substr(0, end)));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 /// Nothing for what is no number; infinity for one that is too large.
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
@@ -80,9 +63,9 @@ void check_range(std::string_view command, const char* name, const char* unit, d
 /// `part`: a command of `text`.
 CommandStretch parse_command(std::string_view part, std::string_view text) {
   std::vector<double> numbers;
-  const auto words = split(part, ',');
+  const auto words = io::split(part, ',');
   for (const std::string_view word : words)
-    if (const auto number = number_of(word)) numbers.push_back(*number);
+    if (const auto number = number_of(io::trimmed(word))) numbers.push_back(*number);
   if (numbers.size() != words.size() || words.size() < 2 || words.size() > 3)
     fail(ExitCode::bad_input,
          "command \"{}\": expected SPEED,TURN or SPEED,TURN,SECONDS (m/s, rad/s to the left, s) with a "
@@ -219,7 +202,8 @@ CommandSchedule drawn_commands(const CommandSettings& settings, int steps, doubl
 
 std::vector<CommandStretch> parse_commands(std::string_view text) {
   std::vector<CommandStretch> stretches;
-  for (const std::string_view part : split(text, ';')) stretches.push_back(parse_command(part, text));
+  for (const std::string_view part : io::split(text, ';'))
+    stretches.push_back(parse_command(io::trimmed(part), text));
   return stretches;
 }
 

@@ -12,6 +12,15 @@ namespace {
 
 using testing::ElementsAre;
 
+TEST(Trimmed, LosesBlanksAtItsEndsAlone) {
+  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+  EXPECT_EQ(trimmed("a"), "a");
+  EXPECT_EQ(trimmed(" \t"), "");
+  EXPECT_EQ(trimmed(""), "");
+  EXPECT_EQ(trimmed("a\n"), "a\n");
+  EXPECT_EQ(trimmed("a\r\n", " \r\n"), "a");
+}
+
 TEST(Split, GivesOnePartMoreThanThereAreSeparators) {
   EXPECT_THAT(split("a,bc,d", ','), ElementsAre("a", "bc", "d"));
   EXPECT_THAT(split("a/b", ','), ElementsAre("a/b"));
