@@ -9,6 +9,7 @@
 
 #include "amble/controllers/automatic_legs.hpp"
 #include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/joint_type.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/substrate/sensor.hpp"
@@ -49,11 +50,7 @@ std::optional<std::string> sensor_of(const robot::RobotSpec& robot, const robot:
                  expected_senses());
   if (kind->owner == SensorOwner::leg) return name + "." + leg.name;
   if (!typed) return name;
-  const auto type = std::ranges::find(robot.joint_types, name.substr(dot + 1));
-  if (type == robot.joint_types.end())
-    fail_setting({key}, "{} = \"{}\": the robot has no joint type {}; expected {}", key, name,
-                 name.substr(dot + 1), fmt::join(robot.joint_types, ", "));
-  const int joint = leg.joints[to_index(type - robot.joint_types.begin())];
+  const int joint = leg.joints[joint_type_index(robot, name.substr(dot + 1), key, name)];
   if (joint < 0) return std::nullopt;
   return name.substr(0, dot + 1) + robot.joints[to_index(joint)].name;
 }

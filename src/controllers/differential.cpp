@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/joint_type.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
@@ -69,11 +70,7 @@ std::vector<int> listed_swing_joints(const robot::RobotSpec& robot, const robot:
 
 void check_types(const robot::RobotSpec& robot, const std::vector<std::string>& types) {
   for (std::size_t i = 0; i < types.size(); ++i)
-    if (std::ranges::find(robot.joint_types, types[i]) == robot.joint_types.end()) {
-      const std::string key = fmt::format("controller.differential.joint_types[{}]", i);
-      fail_setting({key}, "{} = \"{}\": the robot has no joint type {}; expected {}", key, types[i], types[i],
-                   fmt::join(robot.joint_types, ", "));
-    }
+    joint_type_index(robot, types[i], fmt::format("controller.differential.joint_types[{}]", i), types[i]);
 }
 
 /// What is commanded, as factors.
@@ -242,8 +239,22 @@ robot::ExtraSenses DifferentialArchitecture::extra_senses() const {
 
 bool DifferentialArchitecture::reads(const substrate::Sensor& sensor) const {
   using Kind = substrate::Sensor::Kind;
-  return sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn ||
-         (sensor.kind == Kind::heading_error && settings_.heading_gain > 0.0) || walker_->reads(sensor);
+  const bool steers_speed = settings_.full_speed_m_s > 0.0, turns = settings_.turn_gain > 0.0;
+  switch (sensor.kind) {
+    case Kind::command_stop:
+    case Kind::command_speed:
+      if (steers_speed) return true;
+      break;
+    case Kind::command_turn:
+      if (turns) return true;
+      break;
+    case Kind::heading_error:
+      if (settings_.heading_gain > 0.0) return true;
+      break;
+    default:
+      break;
+  }
+  return walker_->reads(sensor);
 }
 
 }  // namespace amble::controllers

@@ -1,7 +1,6 @@
 #include "amble/controllers/modulation.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "amble/controllers/joint_type.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 
@@ -32,11 +32,7 @@ std::string expected_sensors() {
 /// The joint of a leg that a name such as angle.knee means; nothing where the leg lacks it.
 std::optional<int> joint_of(const robot::RobotSpec& robot, std::size_t leg, std::string_view type,
                             const std::string& key, const std::string& name) {
-  const auto found = std::ranges::find(robot.joint_types, type);
-  if (found == robot.joint_types.end())
-    fail_setting({key}, "{} = \"{}\": the robot has no joint type {}; expected {}", key, name, type,
-                 fmt::join(robot.joint_types, ", "));
-  const int joint = robot.legs[leg].joints[to_index(found - robot.joint_types.begin())];
+  const int joint = robot.legs[leg].joints[joint_type_index(robot, type, key, name)];
   return joint < 0 ? std::nullopt : std::optional(joint);
 }
 

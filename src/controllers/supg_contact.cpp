@@ -1,10 +1,9 @@
 #include "amble/controllers/supg_contact.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "amble/controllers/joint_type.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
@@ -51,11 +50,8 @@ bool tells_contact(ContactSource source, substrate::Sensor::Kind kind) {
 
 std::vector<std::vector<int>> contact_joints(const ContactSettings& settings, const robot::RobotSpec& robot) {
   std::vector<std::vector<int>> joints(robot.legs.size());
-  const auto type = std::ranges::find(robot.joint_types, settings.joint_type);
   const std::string key = "controller.supg.contact.joint_type";
-  if (!settings.joint_type.empty() && type == robot.joint_types.end())
-    fail_setting({key}, "{} = \"{}\": the robot has no such joint type; expected {}", key,
-                 settings.joint_type, fmt::join(robot.joint_types, ", "));
+  if (!settings.joint_type.empty()) joint_type_index(robot, settings.joint_type, key, settings.joint_type);
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
     const auto& all = robot.legs[leg].joints;
     for (std::size_t t = 0; t < all.size(); ++t) {

@@ -187,7 +187,8 @@ robot::ExtraSenses SwitchingArchitecture::extra_senses() const {
 
 bool SwitchingArchitecture::reads(const substrate::Sensor& sensor) const {
   using Kind = substrate::Sensor::Kind;
-  return sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn ||
+  return sensor.kind == Kind::command_stop || sensor.kind == Kind::command_speed ||
+         sensor.kind == Kind::command_turn ||
          (sensor.kind == Kind::heading_error && settings_.heading_gain > 0.0) || walker_->reads(sensor);
 }
 

@@ -1,5 +1,7 @@
 #include "amble/trial/senses.hpp"
 
+#include <cmath>
+
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 
@@ -25,7 +27,10 @@ float turning_rate_of(float before_rad, float now_rad, float rate_hz) {
 
 float wrapped_rad(float angle_rad) {
   constexpr float half_turn = 3.14159265f, turn = 6.28318531f;
-  return angle_rad > half_turn ? angle_rad - turn : angle_rad < -half_turn ? angle_rad + turn : angle_rad;
+  const float once_rad = angle_rad > half_turn    ? angle_rad - turn
+                         : angle_rad < -half_turn ? angle_rad + turn
+                                                  : angle_rad;
+  return std::abs(once_rad) <= half_turn ? once_rad : std::remainder(once_rad, turn);
 }
 
 Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s)

@@ -27,7 +27,7 @@ float rate_of(float before_rad, float now_rad, float rate_hz);
 /// The same of an angle that goes from π to −π.
 float turning_rate_of(float before_rad, float now_rad, float rate_hz);
 
-/// An angle of at most three half turns as one of at most half a turn, in single precision.
+/// An angle as one of at most half a turn, in single precision; of what is not finite NaN.
 float wrapped_rad(float angle_rad);
 
 /// The sensors of a runner's robots as they are read: rates and torques that engines do not put into their

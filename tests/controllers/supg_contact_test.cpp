@@ -84,7 +84,7 @@ TEST(SupgContact, RefusesAJointTypeThatTheRobotLacks) {
   } catch (const SettingError& error) {
     EXPECT_STREQ(
         error.what(),
-        "controller.supg.contact.joint_type = \"elbow\": the robot has no such joint type; expected knee, "
+        "controller.supg.contact.joint_type = \"elbow\": the robot has no joint type elbow; expected knee, "
         "hip_fb, hip_io");
   }
 }

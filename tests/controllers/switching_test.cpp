@@ -184,6 +184,15 @@ TEST(Switching, AHeadingErrorCountsAsTurnTimesItsGain) {
   EXPECT_TRUE(with.architecture().extra_senses().heading_error);
 }
 
+TEST(Switching, ReadsCommandsAndStopsAndHeadingErrorsIfTheyHaveAGain) {
+  const Walker without(gaits), with(gaits, {}, 2.0);
+  using Kind = substrate::Sensor::Kind;
+  for (const Kind kind : {Kind::command_speed, Kind::command_turn, Kind::command_stop})
+    EXPECT_TRUE(without.architecture().reads({kind}));
+  EXPECT_FALSE(without.architecture().reads({Kind::heading_error}));
+  EXPECT_TRUE(with.architecture().reads({Kind::heading_error}));
+}
+
 TEST(GaitChoice, IsTheNearestInPartsOfWhatTheGaitsSpanAndOfEquallyNearOnesTheFirst) {
   const GaitChoice choice(
       {.gaits = {{0.1, 0.0, ""}, {0.3, 0.0, ""}, {0.2, 2.0, ""}, {0.2, -2.0, ""}, {0.3, 0.0, ""}}});

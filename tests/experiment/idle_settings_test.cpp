@@ -95,6 +95,14 @@ TEST(IdleParts, AreSensorsThatTheControllerDoesNotRead) {
                                            "controller.supg.modulation.rate=1"};
   EXPECT_FALSE(unread("supg", "pitch", modulated));
   EXPECT_TRUE(unread("supg", "roll", modulated));
+  const std::vector<std::string> turning{"command.kind=random", "controller.differential.turn_gain=1"};
+  EXPECT_FALSE(unread("supg", "command_turn", turning));
+  EXPECT_TRUE(unread("supg", "command_speed", turning));
+  EXPECT_TRUE(unread("supg", "command_stop", turning)) << "turning alone, it goes on when it is told to stop";
+  const std::vector<std::string> slowing{"command.kind=random", "controller.differential.full_speed_m_s=0.4"};
+  EXPECT_FALSE(unread("supg", "command_speed", slowing));
+  EXPECT_FALSE(unread("supg", "command_stop", slowing));
+  EXPECT_TRUE(unread("supg", "command_turn", slowing));
   EXPECT_FALSE(unread("ctrnn", "touch"));
   EXPECT_TRUE(unread("ctrnn", "angle"));
   EXPECT_FALSE(unread("sine", "yaw"));

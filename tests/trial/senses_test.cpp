@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tests/trial/fakes.hpp"
@@ -153,6 +154,22 @@ TEST(Senses, OfTheHeadingErrorIsTheSumOfCommandedTurnsLessTheYaw) {
     EXPECT_NEAR(senses.read(engine).heading_error_rad.at(0, 0),
                 std::remainder(wanted_rad - yaw_rad, 2.0 * M_PI), 1e-4);
   }
+}
+
+TEST(Senses, AngleOfAnyNumberOfTurnsIsWrappedToHalfATurn) {
+  for (int turns = -20; turns <= 20; ++turns)
+    for (const double rest_rad : {-3.1, -1.0, 0.0, 0.5, 3.1})
+      EXPECT_NEAR(wrapped_rad(static_cast<float>(2.0 * M_PI * turns + rest_rad)), rest_rad, 2e-5) << turns;
+  EXPECT_TRUE(std::isnan(wrapped_rad(std::numeric_limits<float>::infinity())));
+}
+
+TEST(Senses, OfTheHeadingErrorStayWithinHalfATurnHoweverFastTheRobotIsToldToTurn) {
+  const CommandSchedule schedule = turning_left(90.0f);
+  FakeEngine engine(1);
+  Senses senses({.extra = {.heading_error = true}, .models = {}}, engine.sensors(), 0.1);
+  senses.load(0, engine, nullptr, &schedule);
+  for (int tick = 0; tick < 50; ++tick)
+    EXPECT_NEAR(senses.read(engine).heading_error_rad.at(0, 0), std::remainder(9.0 * tick, 2.0 * M_PI), 1e-4);
 }
 
 }  // namespace
