@@ -108,6 +108,7 @@ article: build
 	    { grep -A3 '^!' ../build/paper/pdflatex.txt; exit 1; }; \
 	  [ $$pass != 1 ] || (cd ../build/paper && BIBINPUTS=../../paper: bibtex -terse article) || exit 1; done
 	@! grep -E '^Overfull|undefined|multiply' build/paper/article.log
+	@grep -q '(6 pages' build/paper/article.log || { grep 'Output written' build/paper/article.log; echo "expected six pages: shorten paper/article.tex"; exit 1; }
 	@echo "now open build/paper/article.pdf"
 
 # Twelve runs of the paper's study, drawn by this seed, repeated from nothing and compared with the ledger, digests included.
