@@ -26,5 +26,7 @@ void measure_robots(std::vector<Figure>& figures);
 void measure_config(const std::string& config_file, std::vector<Figure>& figures);
 /// Whole runs: evaluations per second by workers, share outside physics, memory.
 void measure_runs(std::vector<Figure>& figures);
+/// A run of the paper's size in the batch engine, from beginning to end: minutes.
+void measure_whole_run(std::vector<Figure>& figures);
 
 }  // namespace amble::bench

@@ -139,6 +139,12 @@ void measure_threads(const std::string& name, const robot::RobotSpec& robot, std
   figures.push_back({"mujoco_robot_steps_per_s_threads_" + name, mujoco, "1/s",
                      what + ", mj_step alone, a simulation in each thread"});
   figures.push_back({"batch_vs_mujoco_threads_" + name, batch / mujoco, "1", what});
+  without_avx512([&] {
+    const double narrow =
+        on_all_processors([&] { return steps_per_s("batch", robot, quarter_swing(robot)); });
+    figures.push_back(
+        {"batch_vs_mujoco_threads_" + name + "_avx2", narrow / mujoco, "1", what + ", without AVX-512"});
+  });
 }
 
 /// One engine of one lane takes the walkers one after the other.
@@ -199,6 +205,11 @@ void measure_robots(std::vector<Figure>& figures) {
         fmt::format("one core, {} joints, {} legs", robot.joints.size(), robot.legs.size());
     figures.push_back({"batch_robot_steps_per_s_" + name, batch, "1/s", what});
     figures.push_back({"batch_vs_mujoco_" + name, batch / mujoco, "1", what + ", mj_step alone"});
+    without_avx512([&] {
+      figures.push_back({"batch_vs_mujoco_" + name + "_avx2",
+                         steps_per_s("batch", robot, quarter_swing(robot)) / mujoco, "1",
+                         what + ", the same without AVX-512"});
+    });
     if (name == "hexapod") measure_threads(name, robot, figures);
   }
 }

@@ -68,6 +68,18 @@ void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
 
 }  // namespace
 
+void measure_whole_run(std::vector<Figure>& figures) {
+  constexpr int generations = 800;
+  const int workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto what =
+      "300 genomes, 800 generations of configs/authors, " + std::to_string(workers) + " workers";
+  figures.push_back({"whole_run_s", run("batch", generations, workers).wall_s, "s", what});
+  without_avx512([&] {
+    figures.push_back(
+        {"whole_run_s_avx2", run("batch", generations, workers).wall_s, "s", what + ", without AVX-512"});
+  });
+}
+
 void measure_runs(std::vector<Figure>& figures) {
   // By turns, and medians: another program that wakes up meanwhile takes from one round only. Shares and
   // steps are of the last round.
