@@ -116,7 +116,8 @@ TEST(Switching, WithOneGaitIsThatWalkerToTheBit) {
           plain.touch(leg, touches);
           switching.touch(leg, touches);
         }
-        if (tick % 100 == 0) switching.tell(0.1f * static_cast<float>(1 + tick / 100), 0.3f);
+        const int hundreds = tick / 100;
+        if (tick % 100 == 0) switching.tell(0.1f * static_cast<float>(1 + hundreds), 0.3f);
         plain.tick();
         switching.tick();
         for (int joint = 0; joint < joints; ++joint)
