@@ -66,6 +66,7 @@ class Architecture {
   /// (AMBLE_CHECK in amble's own). The parameters may outlive the network. Called by several threads at once.
   virtual std::unique_ptr<Parameters> decode(const cppn::Network& network) const = 0;
   /// Room for as many controllers, at least 1. In each lane load() comes before the first step() that counts.
+  /// The architecture must outlive the batch.
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
   /// What its sensors have to hold beside what engines give: in step() these rows are not empty.
   virtual robot::ExtraSenses extra_senses() const { return {}; }

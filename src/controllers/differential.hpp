@@ -26,9 +26,10 @@ SwingJoints swing_joints(const robot::RobotSpec& robot, const std::vector<std::s
 ///
 ///   a = v / full_speed_m_s, within ± 1; 0 while a stop is commanded; 1 where full_speed_m_s is 0
 ///   s = max(−1, 1 − turn_gain |u|) of legs on the inner side (left for u > 0), else 1
-///   swinging joints  y → c + (y − c) a s      all others  y → c + (y − c) × (0 while a stop is commanded)
+///   swinging joints  y → c + (y − c) a s      all others  y → c + (y − c) b
+///   b = 0 while a stop is commanded and full_speed_m_s > 0, else 1
 ///
-/// limited to the joint's range. A factor (a s of each side, and that of the others) moves by at most
+/// limited to the joint's range. A factor (a s of each side, and b) moves by at most
 /// timestep / change_s a tick, and begins with what the first tick asks for. Where a factor is 1 the target
 /// is to the bit the controller's own. The controller itself goes on: its clocks know nothing of it.
 class DifferentialArchitecture : public Architecture {

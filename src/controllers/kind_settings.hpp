@@ -59,7 +59,8 @@ inline constexpr std::array<std::string_view, 2> phase_reset_names{"none", "touc
 
 /// A sine for each joint; its parameters are evolved.
 struct OscillatorSettings {
-  double least_frequency_hz = 0.3, most_frequency_hz = 3.0;  ///< between which evolution chooses, > 0
+  /// Between which evolution chooses, 0.001 … 100, and at most half a turn a timestep.
+  double least_frequency_hz = 0.3, most_frequency_hz = 3.0;
   PhaseReset reset = PhaseReset::none;
 
   void describe(io::SettingsVisitor& visitor);
@@ -71,12 +72,12 @@ enum class LegNeurons { two, none };
 inline constexpr std::array<std::string_view, 2> leg_neurons_names{"two", "none"};
 
 /// How strongly the links of a mixed substrate act on SUPGs: what one source that says 1 changes by the
-/// greatest weight. 0: not at all.
+/// greatest weight, 0 … 10. 0: not at all.
 struct MixedSettings {
-  double rate = 1.0;       ///< ρ: the period by a factor of two
-  double amplitude = 1.0;  ///< of the pattern about the middle of the joint's range: once more, or none
+  double rate = 1.0;  ///< ρ, a leg's timer grows by 2^ρ ticks a tick: 1 halves the period, −1 doubles it
+  double amplitude = 1.0;  ///< 1 doubles the swing about the middle of the joint's range, −1 stops it
   double shift = 0.5;      ///< of the target, in halves of the joint's range
-  double coupling = 1.0;   ///< ρ, a quarter of a period off
+  double coupling = 1.0;   ///< ρ where the other leg is a quarter of a period ahead of its place
   LegNeurons neurons = LegNeurons::two;  ///< of each leg, in an automatic substrate
 
   void describe(io::SettingsVisitor& visitor);
@@ -89,10 +90,10 @@ inline constexpr std::array<std::string_view, 2> swing_centre_names{"start_pose"
 
 /// Differential steering by hand, around a controller that may sense commands itself or not. Off by default.
 struct DifferentialSettings {
-  double turn_gain = 0.0;       ///< s/rad: inner legs swing by 1 − turn_gain × |turn|
-  double full_speed_m_s = 0.0;  ///< the command at which legs swing as evolved; 0: speed is not steered
-  double heading_gain = 0.0;    ///< 1/s: rad/s added to the turn per rad of heading error
-  double change_s = 0.3;        ///< time in which a swing goes from 1 to 0
+  double turn_gain = 0.0;  ///< s/rad, 0 … 1000: inner legs swing by 1 − turn_gain × |turn|, at least −1
+  double full_speed_m_s = 0.0;  ///< at which legs swing as evolved, 0 … 100; 0: hears no speeds, no stops
+  double heading_gain = 0.0;    ///< 1/s, 0 … 100: rad/s added to the turn per rad of heading error
+  double change_s = 0.3;        ///< time in which a swing goes from 1 to 0, 0 … 60; 0: at once
   SwingCentre about = SwingCentre::start_pose;
   std::vector<std::string> joint_types = {};  ///< of the joints that swing a leg; empty: SwingJoints
 

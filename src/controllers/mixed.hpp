@@ -67,8 +67,8 @@ class MixedParameters : public ModulatedParameters {
 /// SUPGs, neurons and sensors in one substrate. Nodes that drive joints are SUPGs (SupgArchitecture), nodes
 /// with a sensor sense, all others are neurons. In each tick, before the SUPGs' own:
 ///
-/// 1. Sensors are read: s = reading / full, within ± 1 (substrate::SensorKind::full, and of an angle its
-///    distance from the middle of the joint's range), times the scale of `sensing`.
+/// 1. Sensors are read: s = reading × scale / full, then limited to ± 1 (substrate::SensorKind::full; the
+///    scale of `sensing`; of an angle the reading is its distance from the middle of the joint's range).
 /// 2. Neurons: h ← h + k (tanh(Σ w u + bias) − h), k = 1 − e^(−timestep/time_constant). u are sensors as read
 ///    now, neurons and SUPGs as they were after the last tick; a SUPG's value is its target as −1 … 1 in the
 ///    joint's range. h is 0 before the first tick, and where it is smaller than 1e−9.
@@ -82,10 +82,10 @@ class MixedParameters : public ModulatedParameters {
 ///
 /// A weight is its CPPN output beyond the threshold, −1 … 1 (Layout), times Settings::weight_range for hidden
 /// links, and times the gain of MixedSettings for the others. With all of these gains 0 it is to the bit the
-/// SUPGs alone. Of SupgSettings all holds but `modulation.sensors`, which sense by themselves.
+/// SUPGs alone. Of SupgSettings all holds but `modulation.sensors` and `modulation.load_feedback`.
 class MixedArchitecture : public SupgArchitecture {
  public:
-  /// Throws UserError as SupgArchitecture does, and for `modulation.sensors`, a clock among the sensors, or a
+  /// Throws UserError as SupgArchitecture does, and for these two, a clock among the sensors, or a
   /// time constant that can be 0.
   MixedArchitecture(const SupgSettings& supg, const MixedSettings& mixed,
                     const substrate::Settings& substrate, const robot::RobotSpec& robot, double timestep_s,

@@ -14,11 +14,11 @@ namespace amble::controllers {
 
 /// How one sensor, or each of a kind, is read.
 struct SensorSettings {
-  std::string of;
-  double scale = 1.0;
-  double noise = 0.0;
-  double delay_s = 0.0;
-  double dead_time_s = 0.0;
+  std::string of;            ///< name of the sensor, or of a kind: then all of that kind
+  double scale = 1.0;        ///< what its reading is multiplied by
+  double noise = 0.0;        ///< up to ± this is added, in the sensor's unit, in trials under noise alone
+  double delay_s = 0.0;      ///< how old readings are, whole ticks
+  double dead_time_s = 0.0;  ///< so long each reading is kept, whole ticks; 0: a new one each tick
 
   void describe(io::SettingsVisitor& visitor);
   friend bool operator==(const SensorSettings&, const SensorSettings&) = default;

@@ -18,9 +18,9 @@ inline constexpr std::array<std::string_view, 4> contact_source_names{"touch", "
 /// What stands for the touch of a foot, for robots without foot switches. ContactEstimate says how.
 struct ContactSettings {
   ContactSource source = ContactSource::touch;
-  std::string joint_type;
-  double threshold = 1.0;
-  double release = 0.5;
+  std::string joint_type;  ///< whose torque or lag it is; empty with touch and shock
+  double threshold = 1.0;  ///< a contact begins above it, 0 … 1e6; N m, rad or rad/s², by `source`
+  double release = 0.5;    ///< and ends below this share of it, 0 … 1
 
   void describe(io::SettingsVisitor& visitor);
   friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
@@ -33,13 +33,13 @@ inline constexpr std::array<std::string_view, 2> shape_by_names{"gain", "reading
 
 /// How sensors change the cycles of a leg's SUPGs; off by default. SupgArchitecture says what it does.
 struct ModulationSettings {
-  std::vector<std::string> sensors;
-  double rate = 0.0;
-  double shape = 0.0;
+  std::vector<std::string> sensors;  ///< names as in docs/CONTROLLERS.md; empty: none
+  double rate = 0.0;   ///< within ± this sensors change log2 of a leg's rate, 0 … 1; 0: not at all
+  double shape = 0.0;  ///< halves of the joint's range, or with ShapeBy::reading of the pattern, 0 … 10
   ShapeBy shape_by = ShapeBy::gain;
-  double reset = 1.0;
-  int refractory_ticks = 0;
-  double load_feedback = 0.0;
+  double reset = 1.0;          ///< share of the way to start_tick that a trigger moves the timer, 0 … 1
+  int refractory_ticks = 0;    ///< after a trigger in which a leg has no other, 0 … 100,000
+  double load_feedback = 0.0;  ///< gain of the feedback of a leg's load, 0 … 100; 0: none
 
   /// Whether anything differs from the paper's SUPGs.
   bool any() const { return !sensors.empty() || reset != 1.0 || refractory_ticks > 0 || load_feedback > 0.0; }
@@ -79,7 +79,8 @@ struct SupgSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// period_s in ticks. Throws UserError unless that is a whole number of at least 2.
+/// period_s in ticks; `timestep_s` > 0 (AMBLE_CHECK). Throws SettingError unless that is a whole number, 2 …
+/// 100,000.
 int period_ticks(const SupgSettings& settings, double timestep_s);
 
 /// What the timer of a leg does, in ticks: the settings as batches and exports follow them.

@@ -3,9 +3,9 @@
 #include <Random123/philox.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "amble/core/check.hpp"
+#include "amble/core/elementary.hpp"
 #include "amble/core/index.hpp"
 
 namespace amble {
@@ -62,11 +62,11 @@ double Stream::normal() {
     return spare_normal_;
   }
   // √(−2 ln u₁) (cos, sin)(2π u₂) with u₁ in (0, 1].
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-  const double angle = 2.0 * std::numbers::pi * uniform();
-  spare_normal_ = radius * std::sin(angle);
+  const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform()));
+  const auto [sine, cosine] = portable::of_turns(uniform());
+  spare_normal_ = radius * sine;
   has_spare_normal_ = true;
-  return radius * std::cos(angle);
+  return radius * cosine;
 }
 
 }  // namespace amble

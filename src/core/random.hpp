@@ -26,8 +26,8 @@ enum class Purpose : std::uint32_t {
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so
 /// on neither thread nor order of work. Philox4x32-10 (Salmon et al., SC 2011) in counter mode: 2^34 32-bit
-/// numbers per stream. The transforms to distributions are not those of the standard library, which
-/// differ between implementations.
+/// numbers per stream. The transforms to distributions are amble's own (core/elementary.hpp): those of the
+/// standard library differ between implementations.
 class Stream {
  public:
   /// Streams of different keys are independent. `generation` and `individual` are any numbers that tell

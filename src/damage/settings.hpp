@@ -25,13 +25,13 @@ inline constexpr std::array<std::string_view, 6> kind_names{"missing", "locked",
 /// One damage of a robot.
 struct Part {
   Kind kind = Kind::missing;
-  std::string leg = {}, joint = {};  ///< names; what the kind needs
-  std::string body = {};             ///< name; empty: the root
-  double angle_rad = 0.0;
-  double share = 0.5;
-  double mass_kg = 1.0;
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
-  double from_s = 0.0;
+  std::string leg = {}, joint = {};        ///< names; what the kind needs
+  std::string body = {};                   ///< name; empty: the root
+  double angle_rad = 0.0;                  ///< locked: from the start pose, within the joint's stops
+  double share = 0.5;                      ///< weak: of the motor's largest torque, 0 … 1
+  double mass_kg = 1.0;                    ///< payload: 1e−9 … 1e6
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< payload: in the body's frame, −100 … 100
+  double from_s = 0.0;                     ///< since when, from the trial's beginning, 0 … 1e9
 
   void describe(io::SettingsVisitor& visitor);
 };
@@ -43,7 +43,7 @@ struct Settings {
 
   void describe(io::SettingsVisitor& visitor);
   /// Throws SettingError for names that the robot does not have, names that a kind does not need, an angle
-  /// beyond the joint's stops, and legs that cannot be removed.
+  /// beyond the joint's stops, slack or weak joints without a motor, and legs that cannot be removed, or all.
   void validate(const robot::RobotSpec& robot) const;
 
   bool is_default() const { return parts.empty(); }

@@ -31,8 +31,8 @@ struct RunPaths {
 /// The paths of a run to read. Throws UserError: no folder, no run, or one of another version.
 RunPaths find_run(const std::filesystem::path& folder);
 
-/// The champion that a path names: a champion file is itself, a run folder its best champion. Throws
-/// UserError as find_run(), or if the run has none.
+/// The champion that a path names: of a run folder its best champion; any other path is returned as it is,
+/// whether it exists or not. Throws UserError as find_run(), or if the run has none.
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);
 
 /// The same for a run wherever its folder is and however long it becomes, another for any other run, even

@@ -26,7 +26,8 @@ struct CSource {
 };
 
 /// The controller in C99, one header and one source, without heap and libraries (docs/EXPORT.md). The ticks
-/// of `trace`, which must have at least one, are its self-test. Throws UserError: fixed point of a network.
+/// of `trace`, which must have at least one, are its self-test. Throws UserError: fixed point of
+/// anything but SUPGs that nobody steers by hand.
 CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, const Provenance& provenance,
                  const Trace& trace, const CSourceOptions& options);
 

@@ -45,7 +45,7 @@ class HeightField {
 
 /// Names one field among those of the same settings. It is the same on every CPU, to the bit.
 struct Key {
-  std::uint64_t seed = 0;        ///< of the run; used with Vary::generations only
+  std::uint64_t seed = 0;        ///< of the run; without effect only with Vary::never and set 0
   std::uint32_t generation = 0;  ///< for the curriculum, and with Vary::generations
   std::uint32_t set = 0;         ///< 0: that of evolution; others: grounds unseen during evolution
 

@@ -13,7 +13,8 @@ namespace amble::ground {
 
 /// When the ground changes.
 enum class Vary {
-  never,       ///< never: one ground in all generations and runs, which `grow_generations` still raises
+  never,       ///< evolution has one ground in all generations and runs, which `grow_generations` still
+               ///< raises; grounds unseen in evolution (Key::set) differ by run
   generations  ///< each generation of a run has another; evaluation.draw = "once" keeps the first
 };
 /// As configs write them, by Vary.
@@ -24,7 +25,8 @@ inline constexpr std::array<std::string_view, 2> vary_names{"never", "generation
 /// slopes and `friction` count.
 struct Settings {
   std::string kind = "plane";  ///< the name of a Kind (kinds.hpp)
-  /// hills, rough, stones: from the lowest to the highest point; else height of one step or obstacle. 0 … 10.
+  /// hills, rough, stones: heights lie within ± half of this, which hills rarely reach; else height of one
+  /// step or obstacle. 0 … 10.
   double height_m = 0.05;
   /// hills: wavelength; else distance from one step, stone or obstacle to the next. 0.01 … 100, at least two
   /// cells.
@@ -52,8 +54,8 @@ struct Settings {
   bool has_field() const { return kind != "plane"; }
   /// Kind::concentric of its kind.
   bool concentric() const;
-  /// The direction of `gravity_m_s2` (straight down, any magnitude) as seen from the plane of the ground,
-  /// which stays z = 0: on a slope the world's z axis is the plane's normal.
+  /// `gravity_m_s2` (x and y 0, z negative) as seen from the plane of the ground, which stays z = 0: on a
+  /// slope the world's z axis is the plane's normal. Its magnitude is kept.
   Vec3 tilted(Vec3 gravity_m_s2) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -139,10 +140,12 @@ bool mutate_weights(Genome& genome, const WeightMutationSettings& settings, doub
   const Change& change = changes[roulette(shares, stream)];
 
   const auto apply = [&](LinkGene& link) {
+    // Weights of genomes that other searches than NEAT have made may lie beyond the limit.
+    const double limit = std::max(weight_limit, std::abs(link.weight));
     link.weight =
         change.reset ? stream.uniform(-weight_limit, weight_limit)
                      : std::clamp(link.weight + stream.uniform(-settings.jiggle_limit, settings.jiggle_limit),
-                                  -weight_limit, weight_limit);
+                                  -limit, limit);
   };
   bool any = false;
   for (LinkGene& link : genome.links) {

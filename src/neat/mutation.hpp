@@ -25,7 +25,8 @@ Mutation mutate(Genome& genome, const Settings& settings, bool recurrent, Innova
 // The operators. Each returns false, and leaves the genome unchanged, if it does not apply.
 
 /// Changes weights in one of the five ways of WeightMutationSettings, links disabled or not; they stay within
-/// ±`weight_limit`. Does not apply to a genome without links.
+/// ±`weight_limit`, or where they lie beyond it already, grow no larger. Does not apply to a genome without
+/// links.
 bool mutate_weights(Genome& genome, const WeightMutationSettings& settings, double weight_limit,
                     Stream& stream);
 

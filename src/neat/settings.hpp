@@ -128,7 +128,8 @@ struct DistanceSettings {
 /// (HyperSharpNEAT). The threshold stays at or above 0.01.
 struct SpeciationSettings {
   DistanceSettings distance;  ///< compared with the threshold
-  /// In generation 0 genomes closer than this are of one species, 0.01 … 1e9.
+  /// Genomes closer than this are of one species, until it first changes, which generation 0 may already do
+  /// to come nearer to the targets. 0.01 … 1e9.
   double initial_threshold = 100.0;
   int target_min = 28;  ///< with fewer species the threshold falls, 1 … 1e6; the default is for 300 genomes
   int target_max = 30;  ///< with more it rises, target_min … population.size; likewise

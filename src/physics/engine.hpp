@@ -45,8 +45,10 @@ struct EngineSettings {
   /// Coulomb coefficient of the config's ground.friction; negative: it gives none. RobotSpec::contact has it
   /// already: only for engines that take friction from elsewhere (mujoco-model).
   double ground_friction = -1.0;
-  bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
-  io::OwnSettings own = {};    ///< settings of an engine that has its own
+  /// True: set_ground() will be called, and an engine that cannot refuses now (UserError). False says
+  /// nothing: Problem::make_engine() leaves it so, and set_ground() has to refuse by itself.
+  bool uneven_ground = false;
+  io::OwnSettings own = {};  ///< settings of an engine that has its own
 };
 
 /// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
@@ -109,7 +111,9 @@ class Engine {
   /// × lanes), without the reaction of a stop. Null unless EngineSettings::torques is set.
   virtual const LaneArray* motor_torque_nm() const = 0;
   /// With how much force the ground pressed against each foot in the last step, along its normal, N (legs ×
-  /// lanes); the mean where an engine takes several steps to one. Null unless EngineSettings::loads is set.
+  /// lanes); the mean where an engine takes several steps to one. Null unless EngineSettings::loads is set,
+  /// and always in an engine that does not override it: there controllers that sense loads fail an
+  /// AMBLE_CHECK.
   virtual const LaneArray* foot_load_n() const { return nullptr; }
   /// Centre of mass of the root body, in the world; RobotSpec::fall_height_m refers to its height over the
   /// ground below it.

@@ -110,8 +110,8 @@ struct Trajectory {
   std::vector<double> turned_by_second_rad;
   /// Measures::headings: the same after the last healthy step.
   double turned_rad = 0.0;
-  /// Measures::commands: mean of what was commanded in each whole second, speed (m/s) and turn (rad/s) in
-  /// turn. Empty without commands.
+  /// Measures::commands or headings: mean of what was commanded in each whole second, speed (m/s) and turn
+  /// (rad/s) in turn. Empty without commands.
   std::vector<double> command_by_second;
 
   /// How long it lasted, s: also the time of the last step.

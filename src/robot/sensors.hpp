@@ -13,10 +13,11 @@ struct SensorFrame {
   LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp) in the level frame
 
   // What engines leave empty, and trials fill in where it is asked for (trial/senses.hpp).
-  LaneArray joint_speed_rad_s = {};  ///< joints × lanes: how far they turned in the last tick, by its length
-  LaneArray joint_torque_nm = {};    ///< joints × lanes: the motors' in the last step
-  LaneArray yaw_rate_rad_s = {};     ///< 1 × lanes: how far the yaw turned in the last tick, by its length
-  LaneArray foot_load_n = {};        ///< legs × lanes: the ground's normal force in the last step
+  LaneArray joint_speed_rad_s =
+      {};  ///< joints × lanes: angle turned in the last tick / its length, 0 in the first
+  LaneArray joint_torque_nm = {};  ///< joints × lanes: the motors' in the last step
+  LaneArray yaw_rate_rad_s = {};   ///< 1 × lanes: likewise, of the yaw
+  LaneArray foot_load_n = {};      ///< legs × lanes: the ground's normal force in the last step
   /// 2 × lanes: what the robot is told, speed along its own forward axis (m/s) and turn to the left (rad/s).
   LaneArray command = {};
   /// 1 × lanes: 1 where both are 0, else 0.

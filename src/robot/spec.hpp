@@ -78,9 +78,9 @@ struct Servo {
   double max_torque_nm = 5.0;            ///< largest torque, N m
   double kp_nm_per_rad = 0.0;            ///< ServoMode::torque: torque per angle still to go, N m/rad
   double kd_nm_s_per_rad = 0.0;          ///< ServoMode::torque: torque per speed, N m s/rad
-  /// ServoMode::torque, in the engine mujoco-model alone: the torque is that of the angle and the speed at
-  /// the beginning of a tick, and is held for the tick, as an action of Gymnasium's environments is. Targets
-  /// may lie beyond the stops: then it presses against one.
+  /// ServoMode::torque, in the engine mujoco-model alone, others refuse such a robot (UserError): the torque
+  /// is that of the angle and the speed at the beginning of a tick, and is held for the tick, as an action of
+  /// Gymnasium's environments is. Targets may lie beyond the stops: then it presses against one.
   bool hold_torque = false;
 };
 
@@ -148,7 +148,7 @@ constexpr int most_sweeps = 1000;
 /// engine gives both numbers to all constraints of its world, joints included, as the authors' program did.
 struct Contact {
   double friction = 0.0;  ///< Coulomb coefficient, at least 0; infinity: no sliding at all
-  double erp = 0.0;       ///< share of the penetration undone per step, in (0, 1]
+  double erp = 0.0;       ///< share of the penetration undone per step, in (0, 1]: to be set
   /// Softness, ODE's constraint force mixing: yielding velocity per force, m/s per N, at least 0.
   double cfm_s_per_kg = 0.0;
   /// Sweeps of the batch engine's solver, 0 to 1000. 0: as many as the paper's quadruped needs, which are too

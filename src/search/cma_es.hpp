@@ -27,7 +27,8 @@ class CmaEs : public Strategy {
   int round() const override { return round_; }
   std::span<const neat::Genome> ask() const override { return candidates_; }
   void tell(std::span<const Evaluation> evaluations) override;
-  /// "cma_step", the step length; "cma_widest", the largest standard deviation of a weight; "cma_restarts".
+  /// Of the distribution of the next round: "cma_step", the step length; "cma_widest", the largest standard
+  /// deviation of a weight; "cma_restarts", how often it began again.
   std::vector<Metric> metrics() const override;
 
   void save(io::BinaryWriter& writer) const override;

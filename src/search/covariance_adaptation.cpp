@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/elementary.hpp"
 #include "amble/core/index.hpp"
 
 namespace amble::search {
@@ -21,7 +22,7 @@ std::vector<double> recombination_weights(int candidates) {
   std::vector<double> weights;
   double sum = 0.0;
   for (int rank = 1; rank <= candidates / 2; ++rank) {
-    weights.push_back(std::log((candidates + 1) / 2.0) - std::log(static_cast<double>(rank)));
+    weights.push_back(portable::log((candidates + 1) / 2.0) - portable::log(rank));
     sum += weights.back();
   }
   for (double& weight : weights) weight /= sum;
@@ -93,13 +94,13 @@ void CovarianceAdaptation::update(std::span<const std::vector<double>> best_firs
   const double keep = 1.0 - c_sigma_, take = std::sqrt(c_sigma_ * (2.0 - c_sigma_) * mu_eff_);
   for (std::size_t d = 0; d < n; ++d) path_sigma_[d] = keep * path_sigma_[d] + take * white[d];
   ++rounds_;
-  const double length = norm(path_sigma_) / std::sqrt(1.0 - std::pow(keep, 2.0 * rounds_));
+  const double length = norm(path_sigma_) / std::sqrt(1.0 - portable::power(keep * keep, rounds_));
   const bool settled = length < (1.4 + 2.0 / (static_cast<double>(n) + 1.0)) * expected_norm_;
   const double take_c = settled ? std::sqrt(c_c_ * (2.0 - c_c_) * mu_eff_) : 0.0;
   for (std::size_t d = 0; d < n; ++d) path_c_[d] = (1.0 - c_c_) * path_c_[d] + take_c * moved[d];
 
   adapt_covariance(differences, settled);
-  step_ *= std::exp(c_sigma_ / d_sigma_ * (norm(path_sigma_) / expected_norm_ - 1.0));
+  step_ *= portable::exp(c_sigma_ / d_sigma_ * (norm(path_sigma_) / expected_norm_ - 1.0));
   factorise();
 }
 

@@ -38,7 +38,6 @@ class LoggedElites {
 
  private:
   void log(std::string record);
-  void replay(io::BinaryReader& reader);
 
   Elites elites_;
   bool has_spread_;

@@ -8,7 +8,9 @@ namespace amble::search {
 /// The result of evaluating one candidate: the objective and the behaviour over all of its episodes
 /// (trials under different scenarios).
 struct Evaluation {
-  double objective = 0.0;  ///< finite, ≥ 0; higher is better; of what is not viable it counts, too
+  /// Finite, ≥ 0; higher is better. Of what is not viable "objective" and "novelty" use it, too; "map-elites"
+  /// drops such a candidate, "cma-es" ranks it last.
+  double objective = 0.0;
   std::span<const float>
       behaviour;       ///< same length for all, valid during tell(); empty if the search needs none
   bool viable = true;  ///< false: a simulation diverged, so that its behaviour means nothing

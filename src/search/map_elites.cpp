@@ -68,9 +68,10 @@ void MapElites::breed() {
   origins_.clear();
   if (emitters_) return add_samples();
   const int batch = settings_.batch;
-  // After the first rounds only for a map that is still empty.
-  const bool random =
-      std::int64_t{round_} * batch < settings_.initial || elites().size() + challengers_.size() == 0;
+  const bool begins = std::int64_t{round_} * batch < settings_.initial;
+  // After the first rounds only for a map that is empty, with the numbers that links had in those.
+  const bool random = begins || elites().size() + challengers_.size() == 0;
+  neat::Innovations first(inputs_, outputs_, neat_.innovations);
   if (!random) {
     innovations_.begin_generation();
     const std::size_t free = to_index(batch) - challengers_.size();
@@ -89,7 +90,8 @@ void MapElites::breed() {
       add_child(stream);
       continue;
     }
-    candidates_.push_back(neat::initial_genome(neat_.genome, inputs_, outputs_, innovations_, stream));
+    candidates_.push_back(
+        neat::initial_genome(neat_.genome, inputs_, outputs_, begins ? innovations_ : first, stream));
     origins_.emplace_back();
   }
 }

@@ -9,6 +9,13 @@
 namespace amble::search {
 namespace {
 
+/// A range of a descriptor by which values can be divided.
+constexpr double least_range = 1e-9;
+/// As many numbers as a place of a map can have.
+constexpr std::size_t most_descriptors = 255;
+/// Genomes at most of which each is compared with each: seconds a round.
+constexpr int most_compared = 20000;
+
 constexpr std::string_view authors = "the authors' code", paper = "Morse et al. 2013, sec. 4";
 
 }  // namespace
@@ -73,12 +80,21 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
   // candidate.
   const double per_member = static_cast<double>(behaviour_length) * sizeof(float) + 2.0 * sizeof(double) +
                             static_cast<double>(population) * sizeof(float);
-  const double bytes = per_member * archive_limit;
+  // A generation, and what it needs to be compared with itself.
+  const double size = population;
+  const double generation = size * (static_cast<double>(behaviour_length) * sizeof(float) +
+                                    2.0 * sizeof(double) + size * sizeof(float));
+  const double bytes = per_member * archive_limit + generation;
   constexpr double giga = 1e9;
   if (bytes <= memory_bytes) return;
+  if (generation > memory_bytes)
+    fail_setting({"population.size"},
+                 "population.size = {}: the distances between so many behaviours need {:.1f} GB; expected "
+                 "less, for the {:.1f} GB that this process may use",
+                 population, generation / giga, memory_bytes / giga);
   // The products with the candidates may be more than the behaviours themselves.
   const double without_population = per_member - static_cast<double>(population) * sizeof(float);
-  if (without_population * archive_limit <= memory_bytes)
+  if (without_population * archive_limit + generation <= memory_bytes)
     fail_setting({"population.size", "search.novelty.archive_limit"},
                  "population.size = {} × search.novelty.archive_limit = {}: the distances between them need "
                  "{:.1f} GB; "
@@ -88,7 +104,7 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
       {"search.novelty.archive_limit"},
       "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
       "most {:.0f}, for the {:.1f} GB that this process may use",
-      archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
+      archive_limit, behaviour_length, bytes / giga, std::floor((memory_bytes - generation) / per_member),
       memory_bytes / giga);
 }
 
@@ -108,7 +124,7 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
                  {"cells of the map: a grid of bins, or the surroundings of evenly spread centroids",
                   "Mouret & Clune 2015; Vassiliades, Chatzilygeroudis & Mouret 2018"});
   visitor.integer("cells", cells, {1, most_cells}, {"number of centroids of a cvt archive"});
-  visitor.integer("centroid_samples", centroid_samples, {1, 1e8},
+  visitor.integer("centroid_samples", centroid_samples, {1, most_cells},
                   {"points from which the centroids are made; at least as many as cells"});
   visitor.integer("centroid_seed", centroid_seed, {0, 1e18},
                   {"seed of these points: runs with other seeds still have the same cells"});
@@ -189,10 +205,15 @@ void MapElitesSettings::validate() const {
                  "search.map_elites.descriptors: expected at least one, e.g. {{ quantity = \"duty_factor\", "
                  "bins = 20 }}");
   for (const DescriptorSettings& descriptor : descriptors)
-    if (!(descriptor.least < descriptor.most))
-      fail_setting({"search.map_elites.descriptors"},
-                   "search.map_elites.descriptors: {}: least = {} is not below most = {}",
-                   descriptor.quantity, descriptor.least, descriptor.most);
+    if (!(descriptor.most - descriptor.least >= least_range))
+      fail_setting(
+          {"search.map_elites.descriptors"},
+          "search.map_elites.descriptors: {}: least = {}, most = {}: expected a range of at least {}",
+          descriptor.quantity, descriptor.least, descriptor.most, least_range);
+  if (descriptors.size() > most_descriptors)
+    fail_setting({"search.map_elites.descriptors"},
+                 "search.map_elites.descriptors: {} of them; expected at most {}", descriptors.size(),
+                 most_descriptors);
   if (cell_count() == 0)
     fail_setting({"search.map_elites.descriptors"},
                  "search.map_elites.descriptors: expected at most {} cells; archive = \"cvt\" has as many as "
@@ -210,6 +231,18 @@ void MapElitesSettings::validate() const {
         "search.map_elites.challenger_share = {}: expected more if trials = {}: no candidate could be tried "
         "again",
         challenger_share, trials);
+  if (const auto again = std::lround(reevaluate_share * batch),
+      tried = trials > 1 ? std::lround(challenger_share * batch) : 0;
+      again + tried >= batch)
+    fail_setting({"search.map_elites.batch", "search.map_elites.reevaluate_share"},
+                 "search.map_elites.batch = {}: {} elites and {} candidates that are tried again, as their "
+                 "shares say, leave no room for new genomes; expected more",
+                 batch, again, tried);
+  if (select == Selection::dominated && std::int64_t{pool.size} + batch > most_compared)
+    fail_setting({"search.map_elites.batch", "search.map_elites.select"},
+                 "search.map_elites.batch = {}: expected at most {} under select = \"dominated\", which "
+                 "compares each genome of a round and of its pool with each",
+                 batch, most_compared - pool.size);
   if (variation != Variation::mutation) validate_variation();
   if (archive == Archive::cvt && centroid_samples < cells)
     fail_setting({"search.map_elites.centroid_samples", "search.map_elites.cells"},

@@ -49,10 +49,12 @@ struct NoveltySettings {
   int neighbours = 15;  ///< novelty sums the distances to so many, 1 … 1e6; absent ones count 0
   /// In generation 0 candidates that are more novel than this join the archive, 1e−9 … 1e12.
   double threshold = 1000.0;
-  int first_members = 15;            ///< while the archive has fewer members, all candidates join, 0 … 1e6
-  bool count_first_members = false;  ///< whether those count when the threshold adapts (Lehman's code: true)
-  int raise_above = 4;               ///< a generation that adds more raises the threshold, 0 … 1e6
-  double raise_factor = 1.2;         ///< by this factor, 1 … 1000
+  int first_members = 15;  ///< while the archive has fewer members, all candidates join, 0 … 1e6
+  /// Whether those that joined for that alone count when the threshold adapts (Lehman's code: true); more
+  /// novel ones always do.
+  bool count_first_members = false;
+  int raise_above = 4;        ///< a generation that adds more raises the threshold, 0 … 1e6
+  double raise_factor = 1.2;  ///< by this factor, 1 … 1000
   int lower_after = 4;  ///< so many generations in a row that add none lower it, 1 … 1e6 (Lehman's code: 10)
   Lowering lowering = Lowering::each_generation;  ///< when it is lowered again
   double lower_factor = 0.8;                      ///< by this factor, 0.001 … 1 (Lehman's code: 0.95)
@@ -149,10 +151,12 @@ struct MapElitesSettings {
   std::vector<DescriptorSettings> descriptors = {};  ///< dimensions of the map; there must be one
   Archive archive = Archive::grid;                   ///< what its cells are
   int cells = 10000;                                 ///< Archive::cvt: centroids, 1 … most_cells
-  int centroid_samples = 100000;   ///< Archive::cvt: points of which they are made, cells … 1e8
+  int centroid_samples = 100000;   ///< Archive::cvt: points of which they are made, cells … most_cells
   std::int64_t centroid_seed = 1;  ///< Archive::cvt: seed of these points, not the run's, 0 … 1e18
   int batch = 1024;                ///< genomes evaluated in a round, 1 … 1e6
-  int initial = 4096;  ///< random genomes in the first rounds, rounded up to whole rounds, 1 … 1e9
+  /// Random genomes in the first rounds, rounded up to whole rounds, 1 … 1e9. Without effect with
+  /// Variation::cma.
+  int initial = 4096;
   Selection select = Selection::uniform;  ///< how parents are drawn
   double crossover_probability = 0.0;  ///< that a child has two parents, 0 … 1; else it is a mutated copy
   /// Share of a batch in which elites are evaluated again, those with the fewest evaluations first, 0 … 0.9.
@@ -170,9 +174,9 @@ struct MapElitesSettings {
   CmaEmitterSettings cma;                     ///< Variation::cma
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites]
-  /// Throws SettingError for what cannot be: a map without descriptors, an empty range, too many cells, fewer
-  /// samples than centroids, shares that leave no room for new genomes or none for challengers, emitters
-  /// without candidates or beside candidates that are tried again.
+  /// Throws SettingError for what cannot be: a map without descriptors or with too many, a range below 1e−9,
+  /// too many cells, fewer samples than centroids, shares that leave no room for new genomes or none for
+  /// challengers, emitters without candidates or beside candidates that are tried again.
   void validate() const;
   /// Cells of the map; 0 if there are more than most_cells.
   std::uint32_t cell_count() const;

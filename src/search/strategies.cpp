@@ -81,6 +81,13 @@ void check_map_elites_memory(const Settings& settings, const SearchSpace& space,
                      ? fmt::format("cma.emitters = {} for CPPNs of {:.0f} weights", map.cma.emitters, weights)
                      : fmt::format("pool.size = {} and a batch of {}", map.pool.size, map.batch),
                  beside / 1e9, memory_bytes / 1e9);
+  const double samples = map.archive == Archive::cvt ? map.centroid_samples : 0.0;
+  const double spread = samples * (4.0 * static_cast<double>(map.descriptors.size()) + 4.0);
+  if (spread > memory_bytes)
+    fail_setting({"search.map_elites.centroid_samples"},
+                 "search.map_elites.centroid_samples = {}: need {:.1f} GB, this process may use {:.1f} GB: "
+                 "expected fewer",
+                 map.centroid_samples, spread / 1e9, memory_bytes / 1e9);
   if (const double needed = cells * (elite_bytes + 8.0) + beside; needed > memory_bytes)
     fail_setting({"search.map_elites.descriptors", "search.map_elites.cells"},
                  "search.map_elites: {} cells could need {:.1f} GB, this process may use {:.1f} GB: expected "

@@ -40,8 +40,8 @@ class Strategy {
   /// programming error), and advances to the next round.
   virtual void tell(std::span<const Evaluation> evaluations) = 0;
 
-  /// Statistics of the last completed round, zeros before the first: columns of generations.csv. The names
-  /// and their order never change.
+  /// Statistics of the search after the last completed round: columns of generations.csv. The names and their
+  /// order never change.
   virtual std::vector<Metric> metrics() const = 0;
 
   /// All state but the logs, for checkpoints; after take_log_growth() of each log.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
+#include <system_error>
 #include <utility>
 
 #include "amble/core/error.hpp"
@@ -21,6 +23,8 @@
 
 namespace amble::study {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Throws UserError where a champion of the condition could not be tested.
 void check_tests(const PlannedCondition& condition) {
@@ -86,6 +90,27 @@ std::string place_of(const ledger::StudySpec& study, std::size_t index, std::str
   else if (std::ranges::any_of(study.settings, names))
     key = "settings";
   return study.where(key) + ": ";
+}
+
+/// Throws UserError: a file that the study names is not there.
+void check_files(const ledger::StudySpec& study) {
+  const auto check = [&](const std::string& key, const std::string& path) {
+    std::error_code error;
+    if (path.empty() || fs::status(path, error).type() != fs::file_type::not_found) return;
+    // Files of others, as public robots, are fetched first: a study says how in the comments it begins with.
+    throw study.error_at(
+        key, fmt::format("'{}' = \"{}\": no such file{}", key, fs::path(path).lexically_normal().string(),
+                         study.where ? "; the head of the study may say how it is made" : ""));
+  };
+  for (std::size_t i = 0; i < study.conditions.size(); ++i) {
+    check(fmt::format("conditions[{}].config", i), study.conditions[i].config);
+    check(fmt::format("conditions[{}].robot", i), study.conditions[i].robot);
+  }
+  for (std::size_t i = 0; i < study.tests.size(); ++i) {
+    check(fmt::format("tests[{}].noise", i), study.tests[i].noise);
+    check(fmt::format("tests[{}].ground", i), study.tests[i].ground);
+    check(fmt::format("tests[{}].damage", i), study.tests[i].damage);
+  }
 }
 
 PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
@@ -285,6 +310,7 @@ std::vector<std::size_t> Plan::shard(const Shard& shard) const {
 
 Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& folder) {
   Plan plan{.study = study, .paths = ledger::StudyPaths(folder), .conditions = {}, .runs = {}};
+  check_files(study);
   std::vector<PlannedTest> tests;
   for (std::size_t i = 0; i < study.tests.size(); ++i) tests.push_back(plan_test(study, i));
   std::vector<std::vector<std::int64_t>> seeds;

@@ -36,7 +36,7 @@ struct Sensor {
 /// What there is one sensor for.
 enum class SensorOwner { robot, joint, leg, clock };
 
-/// A row of the table of what can be sensed. Every engine has all of them.
+/// A row of the table of what can be sensed. All engines of amble's own have all of them.
 struct SensorKind {
   std::string_view name;
   Sensor::Kind kind;

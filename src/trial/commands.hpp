@@ -44,7 +44,7 @@ struct CommandSettings {
   double least_speed_m_s = 0.0,  ///< slowest speed, −100 … 100
       most_speed_m_s = 0.4;      ///< fastest speed, likewise; uniform in between
   double most_turn_rad_s = 0.5;  ///< fastest turn to either side, 0 … 100; uniform in between
-  double straight_share = 0.2,   ///< probability that a stretch has no turn, 0 … 1
+  double straight_share = 0.2,   ///< probability that it is a speed without a turn, 0 … 1
       stop_share = 0.1;          ///< probability that it is a stop, 0 … 1; both together at most 1
   bool mirrored = true;          ///< whether every second trial turns as the one before it, to the other side
 

@@ -47,7 +47,9 @@ struct Scenario {
 struct ScenarioKey {
   std::uint64_t seed = 0;        ///< the run's
   std::uint32_t generation = 0;  ///< whose noise it is
-  std::uint32_t episode = 0;     ///< trial of an evaluation, from 0; others for trials outside evolution
+  /// Below 2^28. 0 … 999: trials of an evaluation; from 1000: trials that evolution has not seen; from 1e6:
+  /// those by which champions are chosen; from 2e6: typical ones (experiment/problem/episode_set.hpp).
+  std::uint32_t episode = 0;
 };
 
 /// Where trials start.
@@ -63,10 +65,10 @@ struct StartGround {
 ///
 /// Start: joints and tilt as drawn, then the root is lifted so that the lowest point is as high over the
 /// ground as in the robot's own start pose (but not below it), plus the height drawn. Pushes: uniform over a
-/// disc in the horizontal plane.
+/// disc in the world's x-y plane, which on a slope is that of the slope.
 ///
-/// On uneven ground the robot is put `start_place_m` or less from the origin along x and y, and lifted or
-/// lowered to where it is as high over the ground as in its own start pose on the plane.
+/// The robot is put up to ± StartGround::place_m from the origin along x and y; on uneven ground it is then
+/// lifted or lowered to where it is as high over the ground as in its own start pose on the plane.
 ///
 /// Commands are drawn whatever the noise, also for an undisturbed episode; with CommandSettings::mirrored
 /// those of episode 2 n + 1 mirror those of episode 2 n.

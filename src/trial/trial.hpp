@@ -95,9 +95,10 @@ class Runner {
   /// those of Protocol::numb.
   void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
 
-  /// From the next tick on the robot of this lane is told another command, to the end of its trial, and from
-  /// the same tick of theirs so are all others whose scenario has no commands. AMBLE_CHECK:
-  /// Protocol::commands is there. Without effect on a lane whose scenario has commands.
+  /// From the next tick of this lane's trial on its robot is told another command. This changes
+  /// Protocol::commands for good: all trials of this runner whose scenario has no commands are told so from
+  /// the same tick of theirs, those that begin later, too. AMBLE_CHECK: Protocol::commands is there. Without
+  /// effect on a lane whose scenario has commands.
   void tell(int lane, Command command);
   /// What the robot of a lane was told in its last step, or before the first is told in that; none without
   /// commands.

@@ -367,6 +367,19 @@ TEST(MutateWeights, StaysWithinTheLimit) {
   }
 }
 
+TEST(MutateWeights, JigglesAWeightBeyondTheLimitFromWhereItIs) {
+  Stream stream(65, Purpose::test);
+  WeightMutationSettings settings;
+  settings.reset_few_share = settings.reset_one_share = 0.0;
+  Genome genome = forty_links(1.4);
+  for (LinkGene& link : genome.links) link.weight = 4.0;
+  mutate_weights(genome, settings, limit, stream);
+  for (const LinkGene& link : genome.links) {
+    EXPECT_LE(link.weight, 4.0);
+    EXPECT_GE(link.weight, 4.0 - settings.jiggle_limit);
+  }
+}
+
 TEST(MutateWeights, CannotWorkWithoutLinks) {
   Stream stream(64, Purpose::test);
   Genome genome = sample_genome(1, 1, {}, {});

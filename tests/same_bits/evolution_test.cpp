@@ -182,10 +182,10 @@ INSTANTIATE_TEST_SUITE_P(SameBits, GoldenEvolution,
                                          SmallRun{"modulated", "objective", 2, "fcc3786bf621f36e"},
                                          SmallRun{"reading", "novelty", 2, "8b3b45c6d42215f6"},
                                          SmallRun{"mixed", "objective", 2, "7e647738fe27b7c0"},
-                                         SmallRun{"oscillators", "cma-es", 2, "b3ce942be9e748db"},
+                                         SmallRun{"oscillators", "cma-es", 2, "386755dc2e856f79"},
                                          SmallRun{"supg", "map-elites-dominated", 2, "789b15833b541787"},
-                                         SmallRun{"oscillators", "map-elites-line", 2, "8a4482c14cb95a42"},
-                                         SmallRun{"oscillators", "map-elites-cma", 2, "2f26e426ea5d7dd6"}),
+                                         SmallRun{"oscillators", "map-elites-line", 2, "9b8ad1e8cae227ce"},
+                                         SmallRun{"oscillators", "map-elites-cma", 2, "3cce0043fedb163f"}),
                          [](const auto& small) {
                            std::string name = std::string(small.param.controller) + "_" + small.param.search;
                            std::ranges::replace(name, '-', '_');

@@ -77,19 +77,27 @@ TEST_F(CmaEsTest, RanksWhatIsNotViableLast) {
 }
 
 TEST_F(CmaEsTest, GoesOnToTheBitFromACheckpoint) {
+  settings_.least_step = 0.01;  // soon reached, so that it begins again before the checkpoint and after it
+  const auto restarts = [](const CmaEs& search) { return search.metrics()[2].value; };
   CmaEs evolving = search(7), resumed = search(7);
+  for (int round = 0; round < 1000 && restarts(evolving) < 2; ++round) step(evolving);
   for (int round = 0; round < 7; ++round) step(evolving);
+  const double before = restarts(evolving);
+  ASSERT_EQ(before, 2.0);
   io::BinaryWriter writer;
   evolving.save(writer);
   io::BinaryReader reader(writer.bytes(), "checkpoint");
   resumed.load(reader);
-  EXPECT_EQ(resumed.round(), 7);
-  for (int round = 0; round < 3; ++round) {
+  EXPECT_EQ(resumed.round(), evolving.round());
+  for (int round = 0; round < 1000 && restarts(evolving) < before + 2; ++round) {
     ASSERT_EQ(std::vector(evolving.ask().begin(), evolving.ask().end()),
               std::vector(resumed.ask().begin(), resumed.ask().end()));
     step(evolving);
     step(resumed);
+    for (std::size_t i = 0; i < 3; ++i)
+      ASSERT_EQ(evolving.metrics()[i].value, resumed.metrics()[i].value) << evolving.metrics()[i].name;
   }
+  EXPECT_EQ(restarts(evolving), before + 2);
 }
 
 TEST_F(CmaEsTest, BeginsElsewhereWhenNothingIsLeftToSearch) {

@@ -256,6 +256,27 @@ TEST_P(MapElitesSearch, LosesAnEliteWhoseSimulationDiverges) {
   EXPECT_EQ(search.elites().best_objective(), 1.0) << "another took its place";
 }
 
+TEST_P(MapElitesSearch, ThatHasLostAllElitesBeginsWithTheLinksOfItsFirstRound) {
+  settings_.descriptors.assign(1, {});
+  settings_.descriptors[0].bins = 1;
+  settings_.initial = settings_.batch;
+  SearchSpace one = space();
+  one.behaviour_length = 1;
+  MapElites search(settings_, one);
+  const std::vector<float> descriptor{0.5f};
+  const auto numbers = [&search] {
+    std::vector<std::uint64_t> all;
+    for (const neat::LinkGene& link : search.ask()[0].links) all.push_back(link.innovation);
+    return all;
+  };
+  const auto first = numbers();
+  for (const bool is_viable : {true, true, false})
+    search.tell(std::vector<Evaluation>(search.ask().size(),
+                                        {.objective = 1.0, .behaviour = descriptor, .viable = is_viable}));
+  ASSERT_EQ(search.elites().size(), 0u);
+  EXPECT_EQ(numbers(), first);
+}
+
 class MapFile : public MapElitesSearch {
  protected:
   void SetUp() override {
@@ -326,7 +347,9 @@ TEST(MapElitesSettings, ThatCannotBeAreRefusedInOneLine) {
   MapElitesSettings settings = small_map();
   EXPECT_EQ(refusal(settings), "");
   settings.descriptors[1].most = 0.0;
-  EXPECT_EQ(refusal(settings), "search.map_elites.descriptors: duty_factor: least = 0 is not below most = 0");
+  EXPECT_EQ(
+      refusal(settings),
+      "search.map_elites.descriptors: duty_factor: least = 0, most = 0: expected a range of at least 1e-09");
   settings = small_map();
   settings.descriptors[0].bins = 1'000'000;
   settings.descriptors[1].bins = 1'000'000;

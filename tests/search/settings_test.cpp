@@ -63,9 +63,48 @@ TEST(MapElitesSettings, NeedRangesOfSomeWidth) {
     EXPECT_TRUE(refused_keys(settings).empty());
     descriptor.most = -3.0;
     EXPECT_FALSE(refused_keys(settings).empty());
+    descriptor.least = 0.0;
+    for (const double width : {1e-320, 1e-160, 0.9e-9}) {
+      descriptor.most = width;
+      EXPECT_FALSE(refused_keys(settings).empty()) << width << " by which nothing can be divided";
+    }
+    descriptor.least = -3.0;
     descriptor.most = -4.0;
     EXPECT_FALSE(refused_keys(settings).empty());
   }
+}
+
+TEST(MapElitesSettings, HaveNoMoreDescriptorsThanAPlaceHasNumbers) {
+  MapElitesSettings settings = map_of(std::vector<int>(255, 1));
+  settings.archive = Archive::cvt;
+  EXPECT_TRUE(refused_keys(settings).empty());
+  settings.descriptors.emplace_back();
+  EXPECT_EQ(refused_keys(settings), std::vector<std::string>{"search.map_elites.descriptors"});
+}
+
+TEST(MapElitesSettings, LeaveRoomForANewGenomeInEachBatch) {
+  const std::vector<std::string> share{"search.map_elites.batch", "search.map_elites.reevaluate_share"};
+  MapElitesSettings settings = map_of({5, 5});
+  settings.reevaluate_share = 0.9;
+  settings.batch = 5;
+  EXPECT_EQ(refused_keys(settings), share) << "4.5 is 5 when rounded";
+  settings.batch = 6;
+  EXPECT_TRUE(refused_keys(settings).empty());
+  settings.trials = 2;
+  settings.reevaluate_share = settings.challenger_share = 0.45;
+  settings.batch = 4;
+  EXPECT_EQ(refused_keys(settings), share) << "1.8 is 2, twice";
+}
+
+TEST(MapElitesSettings, CompareNoMoreGenomesWithEachOtherThanTakesSeconds) {
+  MapElitesSettings settings = map_of({5, 5});
+  settings.batch = 100'000;
+  EXPECT_TRUE(refused_keys(settings).empty());
+  settings.select = Selection::dominated;
+  EXPECT_EQ(refused_keys(settings),
+            (std::vector<std::string>{"search.map_elites.batch", "search.map_elites.select"}));
+  settings.batch = 10'000;
+  EXPECT_TRUE(refused_keys(settings).empty());
 }
 
 TEST(MapElitesSettings, EvaluateAShareOfABatchAgainAsFarAsThereAreElites) {
@@ -219,15 +258,15 @@ TEST(NoveltySettings, RefuseAStrideLongerThanATrialAndBehavioursWithoutBound) {
 TEST(NoveltySettings, RefuseAnArchiveLargerThanMemoryAndSayHowLargeItMayBe) {
   NoveltySettings settings;
   settings.archive_limit = 1000000;
-  // 1500 floats, two doubles and 300 floats: 7216 bytes for each member.
+  // 1500 floats, two doubles and 300 floats: 7216 bytes for each member, and for each of a generation of 300.
   EXPECT_EQ(
       error_of([&] { settings.check_memory(1500, 300, 4e9); }),
       "search.novelty.archive_limit = 1000000: that many behaviours of 1500 numbers need 7.2 GB; expected at "
-      "most 554323, for the 4.0 GB that this process may use");
-  EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 7.216e9); }), "");
-  settings.archive_limit = 554323;
+      "most 554023, for the 4.0 GB that this process may use");
+  EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 7.216e9 + 300 * 7216); }), "");
+  settings.archive_limit = 554023;
   EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
-  settings.archive_limit = 554324;
+  settings.archive_limit = 554024;
   EXPECT_NE(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
 }
 
@@ -257,7 +296,9 @@ TEST(NoveltySettings, NameTheKeysThatCouldBeChanged) {
   const Keys length{"search.novelty.path_stride", "trial.duration_s"};
   EXPECT_EQ(keys([&] { settings.validate(0); }), length);
   EXPECT_EQ(keys([&] { settings.validate(longest_behaviour + 1); }), length);
-  EXPECT_EQ(keys([&] { settings.check_memory(10, 10, 1.0); }), Keys{"search.novelty.archive_limit"});
+  EXPECT_EQ(keys([&] { settings.check_memory(10, 10, 1e4); }), Keys{"search.novelty.archive_limit"});
+  EXPECT_EQ(keys([&] { settings.check_memory(10, 100'000, 20e9); }), Keys{"population.size"})
+      << "each with each: 40 GB, however small the archive";
   settings.path_first_step = 3;
   EXPECT_EQ(keys([&] { settings.validate(1); }),
             (Keys{"search.novelty.path_first_step", "search.novelty.path_stride"}));

@@ -54,6 +54,19 @@ TEST(Plan, IsDividedByItsShardsWithoutGapOrOverlap) {
   }
 }
 
+TEST(Plan, NamesAFileOfTheStudyThatIsNotThereAndWhereToLook) {
+  auto study = three_conditions();
+  study.tests = {trial_test("rough", 1.0)};
+  study.where = [](const std::string& key) { return "s.toml:7 for " + key; };
+  const auto refusal = [&] { return test::error_of(ExitCode::bad_input, [&] { make_plan(study, "out"); }); };
+  study.tests[0].ground = "a/../none.toml";
+  EXPECT_EQ(refusal(),
+            "s.toml:7 for tests[0].ground: 'tests[0].ground' = \"none.toml\": no such file; the head of the "
+            "study may say how it is made");
+  study.conditions[1].robot = "gone.json";
+  EXPECT_THAT(refusal(), testing::StartsWith("s.toml:7 for conditions[1].robot: "));
+}
+
 TEST(Shard, IsWrittenAsItsIndexFromOneAndTheirCount) {
   EXPECT_EQ(Shard::parse("2/8").index, 2);
   EXPECT_EQ(Shard::parse("2/8").count, 8);

@@ -34,7 +34,9 @@ struct TrialResult {
   record::Outcome outcome = record::Outcome::completed;  ///< how it ended
   std::optional<Tracking> tracking = {};                 ///< where commands were measured
   double energy_j = 0.0;  ///< work of the motors, where record::Measures::energy was set; else 0
-  double way_m = 0.0;  ///< way from whole second to whole second, where record::Measures::seconds was; else 0
+  /// Length of the centre of mass's path from whole second to whole second, without the rest of the last,
+  /// where record::Measures::seconds was; else 0.
+  double way_m = 0.0;
 
   /// What it is worth, before trial::Settings::fall_factor: the score, or the distance in its place.
   double value() const { return score.value_or(distance_m); }
@@ -57,15 +59,17 @@ struct RefereeResult {
 /// The best genome of a run so far, with all that is needed to run it again: robot, controller, trial,
 /// engine. Self-contained.
 struct Champion {
-  std::string experiment;                    ///< Config::name of its run
-  std::int64_t seed = 0;                     ///< Config::seed of its run
-  int generation = 0;                        ///< in which it was the best, from 0
-  int index = 0;                             ///< place among the candidates of its generation, from 0
-  Problem problem;                           ///< what it walks in; noise.episodes are those of its evaluation
-  neat::Genome genome;                       ///< valid for `problem`
-  TrialResult result;                        ///< what came of its trial without noise
-  std::vector<std::uint32_t> trace;          ///< trial::TraceObserver of that trial: one hash per step
-  std::vector<NoisyTrial> episodes;          ///< Problem::noise; empty if there is none
+  std::string experiment;  ///< Config::name of its run
+  std::int64_t seed = 0;   ///< Config::seed of its run
+  int generation = 0;      ///< in which it was the best, from 0
+  int index = 0;           ///< place among the candidates of its generation, from 0
+  Problem problem;         ///< what it walks in; noise.episodes are those of its evaluation
+  neat::Genome genome;     ///< valid for `problem`
+  /// What came of its trial without noise; in one read from a file without tracking, energy_j and way_m,
+  /// which files do not have.
+  TrialResult result;
+  std::vector<std::uint32_t> trace;  ///< trial::TraceObserver of that trial: one hash per step
+  std::vector<NoisyTrial> episodes;  ///< of its evaluation, in order; empty unless Problem::trials_vary()
   std::vector<RefereeResult> referees = {};  ///< in the order of Config::referees; empty if there are none
   Draw draw = Draw::each_generation;         ///< EvaluationSettings::draw
 
