@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
@@ -28,8 +29,19 @@ const Sample untriggered_sample{"untriggered",
                                 "quadruped",
                                 {"controller.supg.trigger=none", "controller.supg.idle=wrap"}};
 
+/// Champions of others, which tools/export-study is given: their paths, with a line end after each.
+std::vector<Sample> given_samples() {
+  std::vector<Sample> given;
+  const char* const paths = std::getenv("AMBLE_EXPORT_CHAMPIONS");
+  std::istringstream lines(paths == nullptr ? "" : paths);
+  for (std::string path; std::getline(lines, path);)
+    given.push_back({.name = fmt::format("given_{}", given.size() + 1), .preset = {}, .file = path});
+  return given;
+}
+
 std::vector<Sample> samples() {
-  std::vector<Sample> some;
+  std::vector<Sample> some = given_samples();
+  if (!some.empty()) return some;
   for (const Sample& sample : twenty_samples())
     for (const char* name : {"quadruped_supg", "holding_level", "wrapping_debounced", "hexapod_sine",
                              "quadruped_ctrnn", "recurrent_sine", "ctrnn_runge_kutta", "biped_ctrnn"})

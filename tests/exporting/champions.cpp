@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "amble/experiment/run_paths.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 #include "tests/robot/legged.hpp"
@@ -215,6 +216,11 @@ std::vector<Sample> sensing_samples() {
 }
 
 Champion evolve(const Sample& sample) {
+  if (!sample.file.empty()) {
+    Champion champion = load_champion(champion_at(sample.file));
+    champion.problem.robot.fall_height_m = -1.0;
+    return champion;
+  }
   const TemporaryFolder scratch;
   Overrides overrides{.assignments = {"engine=batch", "population.size=40", "trial.duration_s=1"},
                       .seed = 7,

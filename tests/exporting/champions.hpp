@@ -14,6 +14,7 @@ struct Sample {
   std::string preset;               ///< below configs/, e.g. "authors/supg"
   std::string robot = "quadruped";  ///< or hexapod, biped, lacking, holding: with automatic substrates
   std::vector<std::string> assignments = {};  ///< settings
+  std::string file = {};                      ///< champion file or run folder in place of all that
 };
 
 /// For GoogleTest, which otherwise names a sample by its bytes.
@@ -33,8 +34,8 @@ std::vector<Sample> modulated_samples();
 /// CTRNNs that sense more than touch, sensors that are late, and guessed contacts beside what else is sensed.
 std::vector<Sample> sensing_samples();
 
-/// Its champion after a few generations. One that fell before: in the trials of tests the robot may fall and
-/// go on, so that they are as long as they are meant to be.
+/// Its champion after a few generations, or that of its file. One that fell before: in the trials of tests
+/// the robot may fall and go on, so that they are as long as they are meant to be.
 experiment::Champion evolve(const Sample& sample);
 
 }  // namespace amble::tests
