@@ -231,9 +231,9 @@ void MapElitesSettings::validate() const {
         "search.map_elites.challenger_share = {}: expected more if trials = {}: no candidate could be tried "
         "again",
         challenger_share, trials);
-  if (const auto again = std::lround(reevaluate_share * batch),
-      tried = trials > 1 ? std::lround(challenger_share * batch) : 0;
-      again + tried >= batch)
+  const auto whole = static_cast<std::size_t>(batch);
+  if (const std::size_t again = reevaluations(whole), tried = trials > 1 ? most_challengers() : 0;
+      again + tried >= whole)
     fail_setting({"search.map_elites.batch", "search.map_elites.reevaluate_share"},
                  "search.map_elites.batch = {}: {} elites and {} candidates that are tried again, as their "
                  "shares say, leave no room for new genomes; expected more",

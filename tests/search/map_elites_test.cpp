@@ -41,6 +41,16 @@ class MapElitesSearch : public testing::TestWithParam<Selection> {
   }
   MapElites make() const { return MapElites(settings_, space()); }
 
+  /// A map of one cell, with random genomes in its first round alone.
+  MapElites of_one_cell() {
+    settings_.descriptors.assign(1, {});
+    settings_.descriptors[0].bins = 1;
+    settings_.initial = settings_.batch;
+    SearchSpace one = space();
+    one.behaviour_length = 1;
+    return {settings_, one};
+  }
+
   /// One round; the results in the order of candidates.
   static std::vector<Result> advance(MapElites& search) {
     std::vector<Result> results;
@@ -238,12 +248,7 @@ TEST_P(MapElitesSearch, CannotBeEnteredByOneLuckyTrial) {
 }
 
 TEST_P(MapElitesSearch, LosesAnEliteWhoseSimulationDiverges) {
-  settings_.descriptors.assign(1, {});
-  settings_.descriptors[0].bins = 1;
-  settings_.initial = settings_.batch;
-  SearchSpace one = space();
-  one.behaviour_length = 1;
-  MapElites search(settings_, one);
+  MapElites search = of_one_cell();
   const std::vector<float> descriptor{0.5f};
   const auto tell = [&](double objective_of_the_first, bool is_viable) {
     std::vector<Evaluation> evaluations(search.ask().size(), {.objective = 1.0, .behaviour = descriptor});
@@ -257,12 +262,7 @@ TEST_P(MapElitesSearch, LosesAnEliteWhoseSimulationDiverges) {
 }
 
 TEST_P(MapElitesSearch, ThatHasLostAllElitesBeginsWithTheLinksOfItsFirstRound) {
-  settings_.descriptors.assign(1, {});
-  settings_.descriptors[0].bins = 1;
-  settings_.initial = settings_.batch;
-  SearchSpace one = space();
-  one.behaviour_length = 1;
-  MapElites search(settings_, one);
+  MapElites search = of_one_cell();
   const std::vector<float> descriptor{0.5f};
   const auto numbers = [&search] {
     std::vector<std::uint64_t> all;
