@@ -58,19 +58,19 @@ ExitCode run_adapt(AdaptOptions options) {
   options.settings.damage = experiment::damage_of(options.damage);
   const bool is_page = options.out && options.out->extension() == ".html";
   if (is_page)
-    io::refuse_to_replace(*options.out, "<!DOCTYPE html>", "a page");
+    io::check_output(*options.out, "<!DOCTYPE html>", "a page");
   else if (options.out)
-    io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-adaptation\"", "an adaptation");
+    io::check_output(*options.out, "{\n  \"format\": \"amble-adaptation\"", "an adaptation");
   const auto adaptation = experiment::adapt(repertoire, options.settings, options.jobs, stop_signal());
   if (!adaptation) return ExitCode::interrupted;
   if (is_page) {
     const auto page = presentation::adaptation_page(*adaptation, repertoire, options.settings, options.damage,
                                                     options.run, stop_signal());
     if (!page) return ExitCode::interrupted;
-    io::write_file(*options.out, *page);
+    io::write_output(*options.out, *page);
   } else if (options.out) {
-    io::write_file(*options.out,
-                   experiment::adaptation_json(*adaptation, repertoire, options.settings, options.damage));
+    io::write_output(*options.out,
+                     experiment::adaptation_json(*adaptation, repertoire, options.settings, options.damage));
   }
   print(*adaptation, repertoire, options);
   return ExitCode::ok;

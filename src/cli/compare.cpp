@@ -148,11 +148,23 @@ struct Options {
   presentation::CompareOptions how;
 };
 
-std::vector<presentation::NamedChampion> load(const std::vector<std::filesystem::path>& inputs) {
+/// Without those that were named before, which would count twice.
+template <typename T>
+std::vector<T> each_once(const std::vector<T>& named) {
+  std::vector<T> once;
+  for (const T& item : named)
+    if (std::ranges::find(once, item) == once.end()) once.push_back(item);
+  return once;
+}
+
+std::vector<presentation::NamedChampion> load(const std::vector<std::filesystem::path>& inputs,
+                                              const std::vector<double>& seconds) {
   std::vector<presentation::NamedChampion> champions;
   champions.reserve(inputs.size());
-  for (const auto& input : inputs)
+  for (const auto& input : inputs) {
     champions.push_back({input.string(), experiment::load_champion(experiment::champion_at(input))});
+    for (const double length_s : seconds) check_seconds(length_s, champions.back().champion.problem.trial);
+  }
   return champions;
 }
 
@@ -160,9 +172,11 @@ ExitCode run_compare(const Options& options) {
   presentation::CompareOptions how = options.how;
   PartsLine progress("trials");
   how.on_trial = [&progress](std::size_t done, std::size_t of) { progress.show(done, of); };
-  const auto rows = presentation::compare(load(options.inputs), how, stop_signal());
+  how.seconds = each_once(how.seconds);
+  const auto inputs = each_once(options.inputs);
+  const auto rows = presentation::compare(load(inputs, how.seconds), how, stop_signal());
   if (!rows) fail(ExitCode::interrupted, "stopped before all champions had walked");
-  const auto maps = experiment::compare_maps(options.inputs);
+  const auto maps = experiment::compare_maps(inputs);
   if (options.format == "json")
     fmt::print("{}\n", presentation::comparison_json(*rows, maps).dump(2));
   else if (options.format == "markdown")

@@ -30,7 +30,7 @@ void refuse_unless_ours(const DrawOptions& options) {
     const fs::path kind = options.out->extension();
     if (kind != ".svg" && kind != ".dot")
       fail(ExitCode::bad_input, "--out {}: expected a name that ends in .svg or .dot", options.out->string());
-    io::refuse_to_replace(*options.out, kind == ".svg" ? "<svg" : "digraph", "a drawing");
+    io::check_output(*options.out, kind == ".svg" ? "<svg" : "digraph", "a drawing");
   }
   if (options.patterns) check_drawing("--patterns", *options.patterns);
   check_distinct({{"--out", options.out.value_or("")}, {"--patterns", options.patterns.value_or("")}});
@@ -51,10 +51,10 @@ ExitCode draw(const DrawOptions& options) {
   const fs::path path = experiment::champion_at(options.path);
   const auto champion = experiment::load_champion(path);
   const figures::CppnGraph graph = presentation::cppn_graph(champion);
-  if (options.patterns) io::write_file(*options.patterns, patterns_svg(champion, path));
+  if (options.patterns) io::write_output(*options.patterns, patterns_svg(champion, path));
   if (options.out)
-    io::write_file(*options.out,
-                   options.out->extension() == ".svg" ? figures::cppn_svg(graph) : figures::cppn_dot(graph));
+    io::write_output(*options.out, options.out->extension() == ".svg" ? figures::cppn_svg(graph)
+                                                                      : figures::cppn_dot(graph));
   if (!options.out && !options.patterns) fmt::print("{}", figures::cppn_dot(graph));
   return ExitCode::ok;
 }

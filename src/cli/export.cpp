@@ -46,7 +46,6 @@ ExitCode run_export(const ExportOptions& options) {
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
       fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
-    io::make_folder(options.out->parent_path());
     exporting::write_c(champion, *options.out,
                        options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
                        stop_signal());
@@ -54,12 +53,11 @@ ExitCode run_export(const ExportOptions& options) {
   }
   const bool json = options.format == "json";
   if (options.out)
-    io::refuse_to_replace(*options.out, json ? exporting::export_json_start : "<mujoco",
-                          json ? "a JSON document" : "an MJCF model");
-  if (options.out) io::make_folder(options.out->parent_path());
+    io::check_output(*options.out, json ? exporting::export_json_start : "<mujoco",
+                     json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (options.out)
-    io::write_file(*options.out, text);
+    io::write_output(*options.out, text);
   else
     fmt::print("{}", text);
   return ExitCode::ok;

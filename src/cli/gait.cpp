@@ -32,6 +32,7 @@ struct GaitOptions {
 /// None if interrupted.
 std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOptions& options) {
   const auto champion = experiment::load_champion(path);
+  check_seconds(options.seconds, champion.problem.trial);
   const auto walked =
       presentation::champion_gait(champion, path.string(), options.seconds, options.engine, options.settings,
                                   options.disturbance, processors(), stop_signal());
@@ -54,14 +55,14 @@ std::optional<gait::Report> measure(const GaitOptions& options) {
 ExitCode run_gait(const GaitOptions& options) {
   options.settings.validate();
   if (options.json && *options.json != "-")
-    io::refuse_to_replace(*options.json, gait::report_json_start, "a gait");
+    io::check_output(*options.json, gait::report_json_start, "a gait");
   const auto report = measure(options);
   if (!report) fail(ExitCode::interrupted, "stopped before the end of the trial");
   if (options.json == "-") {
     fmt::print("{}", gait::report_json(*report));
     return ExitCode::ok;
   }
-  if (options.json) io::write_file(*options.json, gait::report_json(*report));
+  if (options.json) io::write_output(*options.json, gait::report_json(*report));
   fmt::print("{}", gait::report_table(*report));
   return ExitCode::ok;
 }

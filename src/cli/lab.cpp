@@ -22,15 +22,15 @@ struct LabOptions {
 };
 
 ExitCode make_lab(const LabOptions& options) {
-  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+  io::check_output(options.out, "<!DOCTYPE html>", "a page");
   const auto data = data_folder();
   if (!data)
     fail(ExitCode::io,
          "the presets of amble (configs/, robots/) were not found: run amble where it was built or "
          "installed, or in the folder of its sources");
   const auto configs = options.configs.empty() ? presentation::gallery_configs(*data) : options.configs;
-  io::write_file(options.out,
-                 page::make_lab_page(presentation::lab_robots(configs, *data), presentation::made_by()));
+  io::write_output(options.out,
+                   page::make_lab_page(presentation::lab_robots(configs, *data), presentation::made_by()));
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }

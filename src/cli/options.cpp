@@ -21,6 +21,17 @@ std::string level_values() {
 
 }  // namespace
 
+void check_seconds(std::optional<double> seconds, trial::Settings trial) {
+  if (!seconds) return;
+  trial.duration_s = *seconds;
+  try {
+    trial.validate();
+  } catch (const SettingError&) {
+    fail(ExitCode::bad_input, "--seconds {}: expected a whole number of timesteps of {} s", *seconds,
+         trial.timestep_s);
+  }
+}
+
 void add_disturbance(CLI::App& command, presentation::TrialChoice& choice, const std::string& by_default) {
   auto* const level =
       command

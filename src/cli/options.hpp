@@ -53,6 +53,9 @@ inline CLI::Validator seconds_check() {
   return between(1e-5, 1e6);
 }
 
+/// Throws UserError: --seconds is no whole number of the trial's timesteps.
+void check_seconds(std::optional<double> seconds, trial::Settings trial);
+
 /// Adds --level, --noise, --trials and --undisturbed. `trials`: how many there are by default, for the help.
 void add_disturbance(CLI::App& command, presentation::TrialChoice& choice,
                      const std::string& trials = "64, or 16 in engines that run one at a time");

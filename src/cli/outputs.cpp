@@ -18,7 +18,7 @@ fs::path resolved(const fs::path& path) {
 }
 
 void check_drawing(std::string_view option, const fs::path& path) {
-  io::refuse_to_replace(path, "<svg", "a drawing");
+  io::check_output(path, "<svg", "a drawing");
   if (path.extension() != ".svg")
     fail(ExitCode::bad_input, "{} {}: expected a name that ends in .svg", option,
          io::printable(path.string()));

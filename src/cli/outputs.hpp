@@ -10,8 +10,8 @@ namespace amble::cli {
 /// The path as it is written or, if it exists, as it is found through links.
 std::filesystem::path resolved(const std::filesystem::path& path);
 
-/// Before anything is computed: throws UserError unless `option`'s file ends in .svg, and is none that must
-/// not be replaced.
+/// Before anything is computed: throws UserError unless `option`'s file ends in .svg and io::check_output()
+/// takes it.
 void check_drawing(std::string_view option, const std::filesystem::path& path);
 
 /// Throws UserError where two of a command's outputs are one file. Options that were not given have an empty

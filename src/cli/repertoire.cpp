@@ -93,10 +93,10 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
                      const std::optional<fs::path>& out) {
   if (!out || out->extension() != ".json")
     fail(ExitCode::bad_input, "--cell {}: expected -o FILE.json", cell);
-  io::refuse_to_replace(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  io::check_output(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
   const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
   if (!champion) return ExitCode::interrupted;
-  io::write_file(*out, experiment::champion_text(*champion));
+  io::write_output(*out, experiment::champion_text(*champion));
   fmt::print("to see it, run: amble view {} -o walker.html\n", io::shell_word(out->string()));
   return ExitCode::ok;
 }
@@ -105,7 +105,8 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
 ExitCode write_switching(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
   if (!options.out || options.out->extension() != ".json")
     fail(ExitCode::bad_input, "--switching {}: expected -o FILE.json", *options.gaits);
-  io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  io::check_output(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  experiment::check_can_switch(repertoire.config);
   const int trials = std::max(1, options.retest.value_or(experiment::usual_gait_trials));
   const auto corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal());
   if (!corrected) return ExitCode::interrupted;
@@ -117,7 +118,7 @@ ExitCode write_switching(const experiment::Repertoire& repertoire, const Reperto
   for (std::size_t i = 0; i < gaits.size(); ++i)
     fmt::print("{:>4} {:>8} {:>12.2f} {:>14.2f}\n", i + 1, repertoire.elites[gaits[i].number].cell,
                gaits[i].speed_m_s, gaits[i].turn_rad_s);
-  io::write_file(*options.out, experiment::champion_text(*champion));
+  io::write_output(*options.out, experiment::champion_text(*champion));
   fmt::print("to see it do as it is told, run: amble view {} -o walker.html\n",
              io::shell_word(options.out->string()));
   return ExitCode::ok;

@@ -59,14 +59,13 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
   return facts;
 }
 
-void refuse_to_replace_others(const StaticView& options) {
-  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+void check_outputs(const StaticView& options) {
+  io::check_output(options.out, "<!DOCTYPE html>", "a page");
   if (!options.figures) return;
   for (const auto name : page::figure_names) {
     check_distinct({{"--out", options.out}, {"--figures", *options.figures / name}});
-    io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
+    io::check_output(*options.figures / name, "<svg", "a figure");
   }
-  io::make_folder(*options.figures);
 }
 
 /// Runs the champion again and reads what was recorded.
@@ -108,7 +107,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
 ExitCode make_static_view(const StaticView& options) {
   stop_signal();  // from here on what is in the folder for temporary files is removed
   const experiment::RunPaths paths = experiment::find_run(options.run);
-  refuse_to_replace_others(options);
+  check_outputs(options);
   const auto config = experiment::load_config(paths.config, {});
   const auto champion_path = paths.best_champion();
   auto champion = experiment::load_champion(champion_path);
@@ -117,11 +116,10 @@ ExitCode make_static_view(const StaticView& options) {
   const auto recorded = record_again(champion, champion_path, options.engine, shown.key);
   const page::RunPage contents = page_of(paths, config, champion, options.engine, shown);
 
-  io::make_folder(options.out.parent_path());
-  io::write_file(options.out, page::make_page(contents, recorded));
+  io::write_output(options.out, page::make_page(contents, recorded));
   if (options.figures)
     for (const auto& figure : page::figure_files(contents, recorded))
-      io::write_file(*options.figures / figure.name, figure.svg);
+      io::write_output(*options.figures / figure.name, figure.svg);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }

@@ -18,6 +18,7 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/idle_settings.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/report/undecidable.hpp"
@@ -60,6 +61,30 @@ void warn_of_idle_settings(const study::Plan& plan) {
   for (const study::PlannedCondition& condition : plan.conditions)
     for (const auto& idle : experiment::idle_assignments(condition.config, condition.spec.settings))
       print_message(fmt::format("note: condition '{}': {}\n", condition.spec.name, idle));
+}
+
+/// Commands of a test that no champion of a condition is told, or hears.
+void warn_of_idle_commands(const study::Plan& plan) {
+  for (const study::PlannedCondition& condition : plan.conditions) {
+    const auto home = experiment::Problem::make(condition.config, condition.robot);
+    for (const study::PlannedTest& test : condition.tests) {
+      if (!test.command) continue;
+      const auto problem = test.problem(home);
+      const auto note = [&](const std::string& what) {
+        print_message(
+            fmt::format("note: condition '{}', test '{}': {}\n", condition.spec.name, test.spec.name, what));
+      };
+      if (const auto untold = experiment::untold_commands(problem)) note(*untold);
+      // Champions that switch are told of it by their gaits.
+      if (condition.spec.gaits == 0 && !problem.architecture->extra_senses().commands())
+        note("its champions sense no commands, and walk as they would without");
+    }
+  }
+}
+
+/// Signals by which a user ends a study.
+bool stops(int signal) {
+  return signal == SIGTERM || signal == SIGINT || signal == SIGHUP || signal == SIGUSR1;
 }
 
 /// How much of a study's part is done, begun and neither.
@@ -146,7 +171,7 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
   ExitCode failure = ExitCode::ok;
   bool interrupted = stop_signal();
   for (const auto& exit : exits) {
-    if (exit.signal != 0 && !(interrupted && exit.signal == SIGTERM)) {
+    if (exit.signal != 0 && !(interrupted && stops(exit.signal))) {
       print_message(fmt::format("a process of the study was ended by signal {}\n", exit.signal));
       const bool from_outside = exit.signal == SIGKILL || exit.signal == SIGTERM;
       failure = from_outside ? ExitCode::interrupted : ExitCode::internal;
@@ -161,20 +186,20 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
 
 ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options) {
   namespace fs = std::filesystem;
-  io::refuse_to_replace(*options.slurm, "#!/bin/bash", "a batch script");
+  io::check_output(*options.slurm, "#!/bin/bash", "a batch script");
   if (options.shard != "1/1")
     fail(ExitCode::bad_input, "--shard {}: the tasks of --slurm are shards themselves", options.shard);
-  io::write_file(*options.slurm, study::slurm_script({.name = "amble-" + plan.study.name,
-                                                      .program = fs::read_symlink("/proc/self/exe"),
-                                                      .file = fs::absolute(options.file),
-                                                      .out = fs::absolute(options.out),
-                                                      .tasks = options.slurm_tasks,
-                                                      .jobs = options.jobs,
-                                                      .per_run = options.per_run,
-                                                      .discard_runs = options.discard_runs,
-                                                      .minutes = options.slurm_minutes}));
+  io::write_output(*options.slurm, study::slurm_script({.name = "amble-" + plan.study.name,
+                                                        .program = fs::read_symlink("/proc/self/exe"),
+                                                        .file = fs::absolute(options.file),
+                                                        .out = fs::absolute(options.out),
+                                                        .tasks = options.slurm_tasks,
+                                                        .jobs = options.jobs,
+                                                        .per_run = options.per_run,
+                                                        .discard_runs = options.discard_runs,
+                                                        .minutes = options.slurm_minutes}));
   fmt::print("{} runs in {} tasks; to submit them, run: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
-             options.slurm->string());
+             io::shell_word(options.slurm->string()));
   return ExitCode::ok;
 }
 
@@ -199,7 +224,7 @@ std::string farewell(const StudyOptions& options, ExitCode code) {
 }
 
 ExitCode run_study(const StudyOptions& options) {
-  stop_signal();
+  if (options.out.empty()) fail(ExitCode::bad_input, "--out: expected the name of a folder");
   std::signal(SIGPIPE, SIG_IGN);
   auto server = server_for(options.watch);
   const auto shard = study::Shard::parse(options.shard);
@@ -207,10 +232,12 @@ ExitCode run_study(const StudyOptions& options) {
   ledger::check_folder(plan.paths, plan.study, options.file);
   plan.retest(options.retest);
   const auto states = study::survey(plan);
+  stop_signal();  // Until here nothing is lost where a signal ends the program at once.
   if (options.slurm) return write_slurm_script(plan, options);
   if (!options.as_child) {
     warn_of_claims(plan);
     warn_of_idle_settings(plan);
+    warn_of_idle_commands(plan);
   }
   if (options.status) return print_status(plan, states, shard);
   ledger::keep_study(plan.paths, plan.study, options.file);
@@ -253,7 +280,8 @@ void add_study(CLI::App& app, Action& action) {
   auto* slurm = command
                     ->add_option("--slurm", options->slurm,
                                  "Only write a Slurm batch script, whose tasks are shards, to this file")
-                    ->excludes(retest);
+                    ->excludes(retest)
+                    ->excludes(status);
   command
       ->add_option("--tasks", options->slurm_tasks, "Tasks of the Slurm array; each takes --jobs processors")
       ->capture_default_str()

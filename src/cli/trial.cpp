@@ -17,6 +17,7 @@
 #include "amble/core/index.hpp"
 #include "amble/damage/text.hpp"
 #include "amble/experiment/gait_observer.hpp"
+#include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/experiment/problem/live_inputs.hpp"
 #include "amble/experiment/replay.hpp"
@@ -91,21 +92,6 @@ void damage_as_in(const std::string& spec, experiment::Champion& champion) {
     change_as_in(spec, [&](const experiment::Config& config) { champion.problem.set_damage(config.damage); });
 }
 
-/// Commands that begin when the trial has ended are easily taken for followed.
-void print_untold(const trial::CommandSettings& command, double duration_s) {
-  double begins_s = 0.0;
-  for (const trial::CommandStretch& stretch : command.stretches) {
-    if (begins_s >= duration_s) {
-      print_message(
-          fmt::format("--command: what begins after {:g} s is never told, as the trial is {:g} s long; for "
-                      "more: --seconds\n",
-                      begins_s, duration_s));
-      return;
-    }
-    begins_s += stretch.seconds;
-  }
-}
-
 /// The [command] of a config. Throws UserError with its place if it says nothing.
 void command_as_in_config(const std::filesystem::path& path, experiment::Champion& champion) {
   change_as_in(path, [&](const experiment::Config& config) {
@@ -120,7 +106,6 @@ void command_as_in_config(const std::filesystem::path& path, experiment::Champio
 /// `spec`: a config file, or commands in one line.
 void command_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
   if (seconds) champion.problem.trial.duration_s = *seconds;
-  champion.problem.trial.validate();
   std::error_code error;
   if (std::filesystem::exists(spec, error))
     command_as_in_config(spec, champion);
@@ -128,7 +113,8 @@ void command_as_in(const std::string& spec, std::optional<double> seconds, exper
     fail(ExitCode::bad_input, "--command: there is no file {}", io::printable(spec));
   else
     experiment::tell(champion.problem, spec, "--command");
-  print_untold(champion.problem.command, champion.problem.trial.duration_s);
+  if (const auto untold = experiment::untold_commands(champion.problem))
+    print_message(fmt::format("--command: {}; for more: --seconds\n", *untold));
 }
 
 /// What it is told, and how it is steered by hand.
@@ -177,7 +163,7 @@ void draw_steering(const std::filesystem::path& recording, const std::string& no
                    const std::filesystem::path& out) {
   const auto recorded = motion::read_recorded_trial(recording);
   if (recorded.motion.frames() == 0) fail(ExitCode::bad_input, "--draw: it broke down in its first step");
-  io::write_file(out, figures::steering_svg(recorded.robot, recorded.motion, note));
+  io::write_output(out, figures::steering_svg(recorded.robot, recorded.motion, note));
 }
 
 /// A live session of a page, with all that was done to the robot.
@@ -205,14 +191,16 @@ ExitCode run_trial(const TrialOptions& options) {
   check_distinct({{"--record", options.record.value_or("")}, {"--draw", options.draw.value_or("")}});
   if (options.draw) check_drawing("--draw", *options.draw);
   auto champion = experiment::load_champion(path);
+  check_seconds(options.seconds, champion.problem.trial);
   if (options.ground)
     change_as_in(*options.ground,
                  [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
   if (options.damage) damage_as_in(*options.damage, champion);
   tell(options, champion);
-  if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
+  if (options.record) io::check_output(*options.record, record::recording_magic, "a recording");
   std::optional<io::ScratchFile> scratch;
   if (options.draw) prepare_to_draw(options, champion, scratch);
+  if (options.record) io::make_folder(options.record->parent_path());
   experiment::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,

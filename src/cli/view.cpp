@@ -36,11 +36,13 @@ void add_recording(presentation::WalkersPage& page, const fs::path& input, const
   page.add_recording(input);
 }
 
-void add_champion(presentation::WalkersPage& page, const fs::path& input) {
+void add_champion(presentation::WalkersPage& page, const fs::path& input,
+                  const std::optional<double>& seconds) {
   const fs::path path = experiment::champion_at(input);
   const auto run = fs::is_directory(input) ? std::optional(input) : std::nullopt;
-  const auto* walker =
-      page.add_champion(experiment::load_champion(path), path, run, processors(), stop_signal());
+  const auto champion = experiment::load_champion(path);
+  check_seconds(seconds, champion.problem.trial);
+  const auto* walker = page.add_champion(champion, path, run, processors(), stop_signal());
   if (walker == nullptr) fail(ExitCode::interrupted, "stopped before all champions had walked");
   if (!walker->typical.empty())
     fmt::print("{}: {}; {} is shown\n", input.string(), walker->typical, walker->shown);
@@ -76,7 +78,7 @@ ExitCode make_view(const ViewOptions& options) {
   if (options.with_figures) return make_static(options);
   if (options.figures) fail(ExitCode::bad_input, "--figures: only with --static");
   stop_signal();  // from here on what is in the folder for temporary files is removed
-  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+  io::check_output(options.out, "<!DOCTYPE html>", "a page");
   if (options.of_all.history && options.inputs.size() > 1)
     fail(ExitCode::bad_input, "--history: expected one run folder, not {} inputs", options.inputs.size());
   presentation::WalkersPage page(options.of_all);
@@ -84,12 +86,11 @@ ExitCode make_view(const ViewOptions& options) {
       options.of_all.history ? presentation::champions_of_history(options.inputs.front()) : options.inputs;
   for (const fs::path& input : inputs)
     if (fs::is_directory(input) || input.extension() == ".json")
-      add_champion(page, input);
+      add_champion(page, input, options.of_all.walk.seconds);
     else
       add_recording(page, input, options);
   const std::string html = std::move(page).html();
-  io::make_folder(options.out.parent_path());
-  io::write_file(options.out, html);
+  io::write_output(options.out, html);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }

@@ -167,4 +167,15 @@ std::vector<std::string> idle_parts(const Problem& problem) {
   return idle;
 }
 
+std::optional<std::string> untold_commands(const Problem& problem) {
+  double begins_s = 0.0;
+  for (const trial::CommandStretch& stretch : problem.command.stretches) {
+    if (problem.command.kind == trial::CommandKind::fixed && begins_s >= problem.trial.duration_s)
+      return fmt::format("what begins after {:g} s is never told, as the trial is {:g} s long", begins_s,
+                         problem.trial.duration_s);
+    begins_s += stretch.seconds;
+  }
+  return std::nullopt;
+}
+
 }  // namespace amble::experiment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,9 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
 /// What a problem was given, wherever that was set, and its controllers do not use: sensors that are read in
 /// some way and that they do not read, sensors of modulated SUPGs that may change nothing, commands.
 std::vector<std::string> idle_parts(const Problem& problem);
+
+/// Listed commands that begin when the problem's trial has ended, which are easily taken for followed, in the
+/// words "what begins after 15 s is never told, as the trial is 10 s long"; nothing if all are told.
+std::optional<std::string> untold_commands(const Problem& problem);
 
 }  // namespace amble::experiment

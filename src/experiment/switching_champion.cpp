@@ -13,20 +13,20 @@ namespace amble::experiment {
 namespace {
 
 /// Where a descriptor has a quantity.
-std::size_t dimension_of(const Repertoire& repertoire, std::string_view quantity) {
-  const auto& descriptors = repertoire.config.search.map_elites.descriptors;
+std::size_t dimension_of(const Config& config, std::string_view quantity) {
+  const auto& descriptors = config.search.map_elites.descriptors;
   const auto found = std::ranges::find(descriptors, quantity, &search::DescriptorSettings::quantity);
   if (found == descriptors.end())
     fail(ExitCode::bad_input,
          "{}: the map has no dimension {}; expected one of speeds and turns, as configs/steer/map.toml makes",
-         repertoire.config.name, quantity);
+         config.name, quantity);
   return static_cast<std::size_t>(found - descriptors.begin());
 }
 
 /// The best elite of each cell of the corrected map, if it is worth half of the best of all.
 std::vector<PickedGait> candidates(const Repertoire& repertoire, const CorrectedMap& corrected) {
-  const std::size_t speed = dimension_of(repertoire, "own_speed");
-  const std::size_t turn = dimension_of(repertoire, "yaw_rate");
+  const std::size_t speed = dimension_of(repertoire.config, "own_speed");
+  const std::size_t turn = dimension_of(repertoire.config, "yaw_rate");
   std::map<std::uint32_t, std::uint32_t> best;
   double most = 0.0;
   for (std::uint32_t number = 0; number < corrected.elites.size(); ++number) {
@@ -75,6 +75,19 @@ neat::Genome genome_of(const Repertoire& repertoire, const PickedGait& gait) {
 }
 
 }  // namespace
+
+void check_can_switch(const Config& config) {
+  if (!fills_map(config))
+    fail(ExitCode::bad_input,
+         "the config has search.kind = \"{}\"; expected \"map-elites\", as in configs/steer/map.toml",
+         config.search.kind);
+  dimension_of(config, "own_speed");
+  dimension_of(config, "yaw_rate");
+  if (config.controller.kind != "supg")
+    fail(ExitCode::bad_input,
+         "{}: legs take over another gait at the triggers of SUPGs, and the controller is of kind \"{}\"",
+         config.name, config.controller.kind);
+}
 
 std::vector<PickedGait> pick_gaits(const Repertoire& repertoire, const CorrectedMap& corrected, int count) {
   std::vector<PickedGait> left = candidates(repertoire, corrected);

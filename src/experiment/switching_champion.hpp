@@ -21,6 +21,10 @@ struct PickedGait {
 inline constexpr int usual_gait_trials = 16;
 inline constexpr double usual_heading_gain = 1.0;
 
+/// Throws UserError: runs of this config make no map whose elites a walker can switch between, which takes
+/// MAP-Elites, descriptors `own_speed` and `yaw_rate`, and SUPGs.
+void check_can_switch(const Config& config);
+
 /// At most `count` ≥ 1 gaits that cover what a map's elites can do, by the corrected map: first the fastest
 /// of those that turn least, then one after the other the elite that is farthest from all picked, speed and
 /// turn each in parts of the range of all. Of several elites in a cell of the corrected map the best counts;

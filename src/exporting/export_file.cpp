@@ -35,7 +35,7 @@ void check_c_name(const fs::path& out) {
          "underscores",
          out.string());
   for (const fs::path& path : {out, header_of(out)})
-    io::refuse_to_replace(path, "/* Controller exported by amble", "an exported controller");
+    io::check_output(path, "/* Controller exported by amble", "an exported controller");
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ void write_c(const experiment::Champion& champion, const fs::path& out, Arithmet
   const auto c = c_source(
       tables, champion.problem.robot, provenance_of(champion), trace,
       {.prefix = out.stem().string(), .arithmetic = arithmetic, .start = start_sentence(champion.problem)});
-  io::write_file(header_of(out), c.header);
-  io::write_file(out, c.source);
+  io::write_output(header_of(out), c.header);
+  io::write_output(out, c.source);
 }
 
 std::string export_json(const experiment::Champion& champion, const std::atomic<bool>& stop) {

@@ -204,6 +204,22 @@ void refuse_to_replace(const std::filesystem::path& path, std::string_view begin
     fail(ExitCode::bad_input, "{} exists and is not {}: name another file", path.string(), what);
 }
 
+void check_output(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
+  refuse_to_replace(path, beginning, what);
+  if (is_special_file(path)) return;
+  if (fs::is_directory(path) || !path.has_filename()) fail_to_write(path, EISDIR);
+  // The folders between are made with the output.
+  fs::path folder = fs::absolute(path).parent_path();
+  while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder)) fail_to_write(path, ENOTDIR);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
+}
+
+void write_output(const std::filesystem::path& path, std::string_view bytes) {
+  make_folder(path.parent_path());
+  write_file(path, bytes);
+}
+
 AppendFile::AppendFile(const std::filesystem::path& path, std::uint64_t keep_bytes)
     : path_(path),
       fd_(::open(path.c_str(), O_WRONLY | (keep_bytes == 0 ? O_CREAT : 0) | O_CLOEXEC, 0666)),

@@ -83,6 +83,13 @@ void make_folder(const std::filesystem::path& folder);
 /// replaced.
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
 
+/// Before an output is computed: refuse_to_replace(), and throws UserError(ExitCode::io) "cannot write PATH:
+/// reason" where write_output() would. Changes nothing.
+void check_output(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
+
+/// make_folder() and write_file(): how a command writes to where its user says.
+void write_output(const std::filesystem::path& path, std::string_view bytes);
+
 /// A log that only grows (generations.csv): lines are appended whole and synced. On opening, what lies beyond
 /// `keep_bytes` is cut off, so that a resumed run continues from its checkpoint. Throws
 /// UserError(ExitCode::io), or ExitCode::bad_file if the file is missing or shorter.

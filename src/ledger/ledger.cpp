@@ -31,9 +31,17 @@ bool Ledger::has(std::string_view condition, std::int64_t seed) const {
 
 Record Ledger::load(std::string_view condition, std::int64_t seed) const {
   const fs::path path = paths_.record(condition, seed);
-  Record record = parse_record(io::read_file(path), path.string());
+  const std::string text = io::read_file(path);
+  Record record;
+  try {
+    record = parse_record(text, path.string());
+  } catch (const UserError& error) {
+    fail(error.code(), "{}; if it cannot be restored, move it away: `amble study` then makes that run again",
+         error.what());
+  }
   if (record.condition != condition || record.seed != seed)
-    fail(ExitCode::bad_file, "{}: the record of {} with seed {}, under another name", path.string(),
+    fail(ExitCode::bad_file,
+         "{}: the record of {} with seed {}, under another name; name it so, or move it away", path.string(),
          record.condition, record.seed);
   return record;
 }

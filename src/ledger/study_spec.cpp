@@ -67,6 +67,11 @@ void check_conditions(const StudySpec& study) {
       throw study.error_at(
           item("conditions", i, "steering"),
           fmt::format("'{}': no test of the condition has a command", item("conditions", i, "steering")));
+    if (!condition.steering.empty() && condition.gaits > 0)
+      throw study.error_at(item("conditions", i, "steering"),
+                           fmt::format("'{}': champions that switch between gaits are steered by that; "
+                                       "expected 'gaits' or 'steering'",
+                                       item("conditions", i, "steering")));
     if (condition.seeds.empty() && study.seeds.empty())
       throw study.error_at("seeds",
                            "'seeds' is missing or empty: expected a list of whole numbers, at least one");

@@ -193,9 +193,9 @@ bool write_map_file(const experiment::Repertoire& repertoire, const std::filesys
   const auto file = std::ranges::find(map_files, out.extension().string(), &MapFile::extension);
   if (file == map_files.end())
     fail(ExitCode::bad_input, "--out {}: expected FILE.html, FILE.json, FILE.csv or FILE.svg", out.string());
-  io::refuse_to_replace(out, std::string(file->beginning), std::string(file->what));
+  io::check_output(out, std::string(file->beginning), std::string(file->what));
   const auto text = text_of(repertoire, run, *file, options, stop);
-  if (text) io::write_file(out, *text);
+  if (text) io::write_output(out, *text);
   return text.has_value();
 }
 

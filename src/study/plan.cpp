@@ -16,6 +16,7 @@
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/steering.hpp"
+#include "amble/experiment/switching_champion.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/ledger/measures.hpp"
@@ -26,46 +27,70 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A mistake of a condition whose place in the study file is known.
+[[noreturn]] void blame(const ledger::StudySpec& study, const std::string& key, std::string_view condition,
+                        const std::string& mistake) {
+  throw study.error_at(key, fmt::format("condition '{}': {}", condition, mistake));
+}
+
+/// The key that a mistake in a test of the condition is about, as far as its words tell.
+std::string key_of_test(const ledger::ConditionSpec& condition, const std::string& condition_key,
+                        const ledger::TestSpec& test, const std::string& test_key, std::string_view mistake) {
+  const auto is_about = [&](std::string_view part) { return mistake.find(part) != std::string_view::npos; };
+  if (!condition.steering.empty() && is_about("controller.differential")) return condition_key + ".steering";
+  if (is_about("trial.duration_s")) return test_key + ".seconds";
+  if (!test.ground.empty() && is_about("ground")) return test_key + ".ground";
+  if (!test.damage.empty() && is_about("damage")) return test_key + ".damage";
+  if (!test.command.empty() && is_about("command")) return test_key + ".command";
+  return test_key + (test.engine.empty() ? ".name" : ".engine");
+}
+
 /// Throws UserError where a champion of the condition could not be tested.
-void check_tests(const PlannedCondition& condition) {
+void check_tests(const ledger::StudySpec& study, std::size_t index, const PlannedCondition& condition) {
   const auto home = experiment::Problem::make(condition.config, condition.robot);
   for (const PlannedTest& test : condition.tests) {
     try {
       test.problem(home).make_engine();
     } catch (const UserError& error) {
-      fail(error.code(), "test '{}': {}", test.spec.name, error.what());
+      const auto number = study.find_test(test.spec.name) - study.tests.data();
+      blame(study,
+            key_of_test(condition.spec, fmt::format("conditions[{}]", index), test.spec,
+                        fmt::format("tests[{}]", number), error.what()),
+            condition.spec.name, fmt::format("test '{}': {}", test.spec.name, error.what()));
     }
   }
 }
 
-/// Throws UserError: the condition's champions switch between the elites of a map, and its runs make none, or
-/// a test asks when a run's champions first got somewhere, which are elites that do not switch.
-void check_gaits(const PlannedCondition& condition) {
+/// Throws UserError: the condition's champions switch between the elites of a map, and its runs make none
+/// that can, or a test asks when a run's champions first got somewhere, which are elites that do not switch.
+void check_gaits(const ledger::StudySpec& study, std::size_t index, const PlannedCondition& condition) {
   if (condition.spec.gaits == 0) return;
-  if (!experiment::fills_map(condition.config))
-    fail(ExitCode::bad_input,
-         "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in "
-         "configs/steer/map.toml",
-         condition.spec.gaits, condition.config.search.kind);
+  const std::string key = fmt::format("conditions[{}].gaits", index);
+  try {
+    experiment::check_can_switch(condition.config);
+  } catch (const UserError& error) {
+    blame(study, key, condition.spec.name, fmt::format("gaits = {}: {}", condition.spec.gaits, error.what()));
+  }
   for (const PlannedTest& test : condition.tests)
     if (test.spec.reach_m > 0.0)
-      fail(
-          ExitCode::bad_input,
-          "gaits = {}: test '{}' has reach_m, which looks through a run's champions, and they do not switch; "
-          "leave the condition out of the test's conditions",
-          condition.spec.gaits, test.spec.name);
+      blame(study, key, condition.spec.name,
+            fmt::format("gaits = {}: test '{}' has reach_m, which looks through a run's champions, and they "
+                        "do not switch; leave the condition out of the test's conditions",
+                        condition.spec.gaits, test.spec.name));
 }
 
 /// The test as the champions of a condition meet it: under its own noise where the test asks for that, and
 /// steered by hand where they are. Throws UserError: it has no noise.
-PlannedTest of_condition(PlannedTest test, const experiment::Config& config,
+PlannedTest of_condition(const ledger::StudySpec& study, std::size_t test_index, PlannedTest test,
+                         const PlannedCondition& condition,
                          const std::optional<controllers::DifferentialSettings>& steering) {
   if (test.spec.level == record::own_noise) {
-    test.noise = config.noise;
+    test.noise = condition.config.noise;
     test.noise.first_undisturbed = false;
     if (!test.noise.any())
-      fail(ExitCode::bad_input, "test '{}' has level = \"{}\", and the config is without noise; expected {}",
-           test.spec.name, record::own_noise, record::level_names());
+      blame(study, fmt::format("tests[{}].level", test_index), condition.spec.name,
+            fmt::format("test '{}' has level = \"{}\", and the config is without noise; expected {}",
+                        test.spec.name, record::own_noise, record::level_names()));
   }
   if (test.command) test.steering = steering;
   return test;
@@ -113,6 +138,21 @@ void check_files(const ledger::StudySpec& study) {
   }
 }
 
+/// Throws UserError: settings of what the study itself says, which would be dropped.
+void check_overruled(const std::vector<std::string>& assignments, bool has_generations) {
+  for (const std::string& assignment : assignments) {
+    const std::string_view key = std::string_view(assignment).substr(0, assignment.find_first_of(" ="));
+    if (key == "seed")
+      fail(ExitCode::bad_input,
+           "the setting {}: a study says itself which seeds its runs have; expected 'seeds'", assignment);
+    if (key == "generations" && has_generations)
+      fail(ExitCode::bad_input,
+           "the setting {}: the study or the condition has 'generations' as well; expected one of "
+           "them",
+           assignment);
+  }
+}
+
 PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
                                 const std::vector<PlannedTest>& tests) {
   const ledger::ConditionSpec& spec = study.conditions[index];
@@ -122,22 +162,23 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
   const int generations = spec.generations > 0 ? spec.generations : study.generations;
   if (generations > 0) overrides.generations = generations;
   PlannedCondition condition{.spec = spec, .config = {}, .robot = {}, .tests = {}, .hash = {}};
+  std::optional<controllers::DifferentialSettings> steering;
   try {
     condition.config = experiment::load_config(spec.config, overrides);
-    std::optional<controllers::DifferentialSettings> steering;
     if (!spec.steering.empty()) steering = experiment::parse_differential(spec.steering, "steering");
+    check_overruled(overrides.assignments, generations > 0);
     condition.robot = experiment::load_robot(condition.config);
-    for (const PlannedTest& test : tests)
-      if (test.spec.applies_to(spec.name))
-        condition.tests.push_back(of_condition(test, condition.config, steering));
-    check_tests(condition);
-    check_gaits(condition);
   } catch (const UserError& error) {
     std::string mistake = error.what();
     constexpr std::string_view typed = "--set ";  // what nobody has typed here
     if (mistake.starts_with(typed)) mistake.replace(0, typed.size(), "the setting ");
     fail(error.code(), "{}condition '{}': {}", place_of(study, index, mistake), spec.name, mistake);
   }
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    if (tests[t].spec.applies_to(spec.name))
+      condition.tests.push_back(of_condition(study, t, tests[t], condition, steering));
+  check_tests(study, index, condition);
+  check_gaits(study, index, condition);
   condition.hash = config_hash(condition.config, condition.robot);
   return condition;
 }

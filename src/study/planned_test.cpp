@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string>
+#include <string_view>
 
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
@@ -60,6 +62,20 @@ io::OwnSettings engine_own_of(const ledger::StudySpec& study, std::size_t index)
   return own;
 }
 
+/// The config of a file that the test names. Throws UserError with both places.
+experiment::Config config_of(const ledger::StudySpec& study, std::size_t index, std::string_view key,
+                             const std::string& file) {
+  try {
+    return experiment::load_config(file, {});
+  } catch (const UserError& error) {
+    const std::string_view mistake = error.what();
+    const bool lacks_robot = mistake.find("'robot' = \"\"") != std::string_view::npos;
+    throw study.error_at(key_of("tests", index, key),
+                         fmt::format("'{}': {}{}", key_of("tests", index, key), mistake,
+                                     lacks_robot ? ", as in a config that it may include" : ""));
+  }
+}
+
 }  // namespace
 
 PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
@@ -70,7 +86,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
                                      test.spec.engine, fmt::join(physics::engine_names(), ", ")));
   test.engine_own = engine_own_of(study, index);
   if (!test.spec.noise.empty()) {
-    test.noise = experiment::load_config(test.spec.noise, {}).noise;
+    test.noise = config_of(study, index, "noise", test.spec.noise).noise;
     test.noise.first_undisturbed = false;
     if (!test.noise.any())
       throw study.error_at(key_of("tests", index, "noise"),
@@ -78,7 +94,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
   }
   if (const record::Level* const level = record::find_level(test.spec.level); level != nullptr)
     test.noise = trial::noise_of(*level);
-  if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
+  if (!test.spec.ground.empty()) test.ground = config_of(study, index, "ground", test.spec.ground).ground;
   if (test.ground && test.ground->start_place_m <= 0.0 && !test.spec.is_disturbed() &&
       test.spec.episodes != 1)
     throw study.error_at(
@@ -86,7 +102,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
         fmt::format("'{}' = {}: without noise, and with all starts at one place of the ground "
                     "(ground.start_place_m), all trials are the same",
                     key_of("tests", index, "episodes"), test.spec.episodes));
-  if (!test.spec.damage.empty()) test.damage = experiment::load_config(test.spec.damage, {}).damage;
+  if (!test.spec.damage.empty()) test.damage = config_of(study, index, "damage", test.spec.damage).damage;
   if (test.spec.command.empty()) return test;
   try {
     test.command = {.kind = trial::CommandKind::fixed, .stretches = trial::parse_commands(test.spec.command)};

@@ -41,6 +41,12 @@ class Compare : public testing::Test {
   std::string run_ = scratch_ / "run", champion_;
 };
 
+TEST_F(Compare, CountsWhatIsNamedTwiceOnce) {
+  const auto once = amble({"compare", champion_, "--engines", "batch", "--seconds", "1"});
+  ASSERT_EQ(once.exit_code, 0) << once.err;
+  EXPECT_EQ(amble({"compare", champion_, champion_, "--engines", "batch", "--seconds", "1,1"}).out, once.out);
+}
+
 TEST_F(Compare, MakesATableOfTheRequestedEnginesAndTheChampionsOwn) {
   const auto table = amble({"compare", champion_, run_, "--engines", "mujoco"});
   ASSERT_EQ(table.exit_code, 0) << table.err;

@@ -97,6 +97,7 @@ TEST_F(Study, NamesARecordThatIsCutInHalfAndTouchesNothing) {
   const auto refused = study("s", {"--jobs", "2"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("sine-003.json"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("move it away"), std::string::npos) << refused.err;
   EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
   EXPECT_EQ(all_files(folder_ / "s"), before);
 }
@@ -198,6 +199,24 @@ TEST_F(Study, ARunThatFailsIsReportedAndTheOthersContinue) {
       << "by each process: " << rest.err;
   EXPECT_NE(rest.out.find("5 of 6 runs are done"), std::string::npos) << rest.out << rest.err;
   EXPECT_NE(rest.err.find("1 run failed; the same command tries it again"), std::string::npos) << rest.err;
+}
+
+TEST_F(Study, NotesCommandsThatChampionsAreNotToldOrDoNotHear) {
+  write(study_toml + "[[tests]]\nname = \"told\"\nseconds = 4\ncommand = \"0.3,0,2;0.3,0.2,2;0.1,0,2\"\n" +
+        "conditions = [\"supg\"]\n");
+  const auto planned = study("s", {"--status"});
+  EXPECT_EQ(planned.exit_code, 0);
+  EXPECT_EQ(
+      planned.err,
+      "note: condition 'supg', test 'told': what begins after 4 s is never told, as the trial is 4 s "
+      "long\nnote: condition 'supg', test 'told': its champions sense no commands, and walk as they would "
+      "without\n");
+}
+
+TEST_F(Study, InAFolderWithoutANameIsRefused) {
+  const auto refused = amble({"study", (folder_ / "study.toml").string(), "--out", ""});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "amble: --out: expected the name of a folder\n");
 }
 
 TEST_F(Study, ReplacesNoStudyFileInItsFolderThatItHasNotWritten) {

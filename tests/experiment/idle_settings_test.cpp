@@ -123,5 +123,19 @@ TEST(IdleParts, AreCommandsThatNobodyHears) {
       testing::ElementsAre());
 }
 
+TEST(UntoldCommands, AreThoseThatBeginWhenTheTrialHasEnded) {
+  const auto untold = [](double duration_s, trial::CommandKind kind) {
+    Problem problem;
+    problem.trial.duration_s = duration_s;
+    problem.command.kind = kind;
+    problem.command.stretches = {{.speed_m_s = 0.3, .seconds = 5}, {.seconds = 5}, {.speed_m_s = 0.1}};
+    return untold_commands(problem);
+  };
+  EXPECT_EQ(untold(10.0, trial::CommandKind::fixed),
+            "what begins after 10 s is never told, as the trial is 10 s long");
+  EXPECT_EQ(untold(10.01, trial::CommandKind::fixed), std::nullopt);
+  EXPECT_EQ(untold(10.0, trial::CommandKind::random), std::nullopt);
+}
+
 }  // namespace
 }  // namespace amble::experiment

@@ -215,6 +215,22 @@ TEST(RefuseToReplace, LetsPassWhatIsMissingEmptyOrOfTheSameKind) {
             path.string() + " exists and is not a page: name another file");
 }
 
+TEST(CheckOutput, LetsPassWhatWriteOutputCanWriteAndMakesNothing) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "new/of/a.svg";
+  check_output(path, "<svg", "a drawing");
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+  write_output(path, "<svg/>");
+  EXPECT_EQ(read_file(path), "<svg/>");
+  check_output(path, "<svg", "a drawing");
+  check_output("/dev/null", "<svg", "a drawing");
+  const auto below = path / "b.svg", is_folder = folder / "new";
+  EXPECT_EQ(error_of(ExitCode::io, [&] { check_output(below, "<svg", "a drawing"); }),
+            "cannot write " + below.string() + ": Not a directory");
+  EXPECT_EQ(error_of(ExitCode::io, [&] { check_output(is_folder, "<svg", "a drawing"); }),
+            "cannot write " + is_folder.string() + ": Is a directory");
+}
+
 TEST(AppendFile, LeavesNoHalfLineWhenThereIsNoRoom) {
   const test::TemporaryFolder folder;
   const std::string path = (folder / "log").string();

@@ -203,6 +203,17 @@ TEST(StudySpec, EveryConditionHasAConfigSeedsAndAName) {
         << name;
 }
 
+TEST(StudySpec, AConditionSwitchesBetweenGaitsOrIsSteeredByHand) {
+  const std::string switching = "config = \"a.toml\"\ngaits = 3", steered = "\nsteering = \"turn_gain = 1\"";
+  const auto with = [](const std::string& text) {
+    return replaced(replaced(good, "config = \"a.toml\"", text), "seconds = 300",
+                    "seconds = 300\ncommand = \"0.3,0\"");
+  };
+  EXPECT_EQ(diagnostic(with(switching)), "");
+  EXPECT_NE(diagnostic(with(switching + steered)).find("'conditions[0].steering': champions that switch"),
+            std::string::npos);
+}
+
 TEST(StudySpec, FilesOfConditionsAndTestsAreResolvedEachByItsOwnKey) {
   const TemporaryFolder folder;
   io::write_file(folder.path() / "s.toml",

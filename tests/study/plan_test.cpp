@@ -111,21 +111,33 @@ TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
 
 TEST(Plan, AConditionSwitchesBetweenTheElitesOfAMapAloneAndItsRecordsAreNoOthers) {
   auto study = small_study();
-  study.conditions = {condition("best", "repertoire/quadruped"),
-                      condition("switching", "repertoire/quadruped")};
+  study.conditions = {condition("best", "repertoire/quadruped"), condition("switching", "steer/map")};
+  study.conditions[0].config = study.conditions[1].config;
   study.conditions[1].gaits = 4;
   const Plan plan = make_plan(study, "out");
   EXPECT_EQ(plan.conditions[0].hash, plan.conditions[1].hash) << "the runs are the same";
   EXPECT_EQ(plan.conditions[0].recorded_hash(), plan.conditions[0].hash);
   EXPECT_NE(plan.conditions[1].recorded_hash(), plan.conditions[1].hash);
-  study.conditions = {condition("switching", "authors/supg-objective")};
-  study.conditions[0].gaits = 4;
-  try {
-    make_plan(study, "out");
-    FAIL() << "accepted";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("gaits = 4: the config has search.kind = \"objective\""));
-  }
+}
+
+TEST(Plan, AConditionThatSwitchesIsRefusedWhereItsRunsMakeNoMapThatItCould) {
+  const auto refusal = [](const std::string& config, std::vector<std::string> settings) {
+    auto study = small_study();
+    study.where = [](const std::string& key) { return "s.toml, at " + key; };
+    study.conditions = {condition("switching", config)};
+    study.conditions[0].gaits = 4;
+    study.conditions[0].settings = std::move(settings);
+    return test::error_of(ExitCode::bad_input, [&] { make_plan(study, "out"); });
+  };
+  const std::string place = "s.toml, at conditions[0].gaits: condition 'switching': gaits = 4: ";
+  EXPECT_THAT(refusal("authors/supg-objective", {}),
+              testing::StartsWith(place + "the config has search.kind = \"objective\""));
+  EXPECT_THAT(refusal("repertoire/quadruped", {}),
+              testing::AllOf(testing::StartsWith(place), testing::HasSubstr("no dimension own_speed")));
+  EXPECT_THAT(refusal("authors/ctrnn-objective",
+                      {"search.kind=map-elites",
+                       "search.map_elites.descriptors=[{quantity=\"own_speed\"}, {quantity=\"yaw_rate\"}]"}),
+              testing::AllOf(testing::StartsWith(place), testing::HasSubstr("of kind \"ctrnn\"")));
 }
 
 TEST(Plan, ATestUnderOwnNoiseHasThatOfEachConditionAndIsRefusedWhereThereIsNone) {
@@ -149,7 +161,7 @@ TEST(Plan, ATestUnderOwnNoiseHasThatOfEachConditionAndIsRefusedWhereThereIsNone)
     make_plan(study, "out");
     FAIL() << "accepted";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("condition 'exact': test 'own' has level = \"own\""));
+    EXPECT_THAT(error.what(), testing::StartsWith("condition 'exact': test 'own' has level = \"own\""));
   }
 }
 
@@ -172,14 +184,17 @@ TEST(Plan, AMistakeInAStudysSettingsIsNamedWithItsPlaceInTheStudy) {
                   "s.toml, at conditions[0].settings: condition 'a': the setting population.sise=10"));
   EXPECT_THAT(refusal({"population.sise=10"}, {"seed=3"}),
               testing::StartsWith("s.toml, at settings: condition 'a': the setting population.sise=10"));
+  EXPECT_THAT(refusal({}, {"seed=3"}),
+              testing::StartsWith("s.toml, at conditions[0].settings: condition 'a': the setting seed=3: "));
+  EXPECT_THAT(refusal({"generations=3"}, {}),
+              testing::StartsWith("s.toml, at settings: condition 'a': the setting generations=3: "));
   EXPECT_THAT(refusal({}, {"search.kind=hope"}),
               testing::StartsWith("s.toml, at conditions[0].settings: condition 'a': "));
 }
 
 TEST(Plan, ATestThatLooksThroughARunsChampionsIsRefusedWhereTheyDoNotSwitchAsTheWalkerDoes) {
   auto study = small_study();
-  study.conditions = {condition("best", "repertoire/quadruped"),
-                      condition("switching", "repertoire/quadruped")};
+  study.conditions = {condition("best", "repertoire/quadruped"), condition("switching", "steer/map")};
   study.conditions[1].gaits = 4;
   study.tests = {trial_test("walk", 2.0)};
   study.tests[0].reach_m = 1.0;
@@ -261,10 +276,11 @@ TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {
     }
     return std::string();
   };
+  study.where = [](const std::string& key) { return "s.toml, at " + key; };
   study.tests = {trial_test("odd", 0.004)};
-  EXPECT_NE(refusal().find("test 'odd': trial.duration_s = 0.004: expected a whole number of timesteps"),
-            std::string::npos)
-      << refusal();
+  EXPECT_THAT(refusal(),
+              testing::StartsWith("s.toml, at tests[0].seconds: condition 'sine': test 'odd': "
+                                  "trial.duration_s = 0.004: expected a whole number of timesteps"));
 
   const test::TemporaryFolder folder;
   io::write_file(folder / "ground.toml", fmt::format("include = [\"{}\"]\n[ground]\nkind = \"stones\"\n",
@@ -272,7 +288,8 @@ TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {
   study.tests = {trial_test("rough", 1.0)};
   study.tests[0].ground = (folder / "ground.toml").string();
   study.settings.push_back("ground.friction=0.7");
-  EXPECT_NE(refusal().find("test 'rough': ground.friction = -1"), std::string::npos) << refusal();
+  EXPECT_THAT(refusal(), testing::StartsWith("s.toml, at tests[0].ground: condition 'sine': test 'rough': "
+                                             "ground.friction = -1"));
 }
 
 TEST(Plan, CanBeMadeOfEveryStudyInTheFolder) {

@@ -80,6 +80,22 @@ TEST(PlannedTest, OfEpisodesThatWouldAllBeTheSameTrialIsRefused) {
   EXPECT_NO_THROW(plan_with(0.0, config_file("robust/supg-objective"), 3));
 }
 
+TEST(PlannedTest, AMistakeInAFileThatItNamesIsToldWithBothPlaces) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "damage.toml").string();
+  auto study = small_study();
+  study.where = [](const std::string& key) { return "s.toml, at " + key; };
+  study.tests = {trial_test("hurt", 1.0)};
+  study.tests[0].damage = file;
+  const auto refusal = [&] { return test::error_of(ExitCode::bad_input, [&] { plan_test(study, 0); }); };
+  io::write_file(file, "[damage]\nkind = \"none\"\n");
+  EXPECT_THAT(refusal(), testing::StartsWith("s.toml, at tests[0].damage: 'tests[0].damage': " + file +
+                                             ":2: unknown key 'damage.kind'"));
+  io::write_file(file, "[damage]\n");
+  EXPECT_THAT(refusal(), testing::EndsWith("expected the path of a robot file, as in a config that it may "
+                                           "include"));
+}
+
 TEST(PlannedTest, HasTheSettingsOfItsEngine) {
   auto study = small_study();
   study.tests = {trial_test("quick", 1.0)};
