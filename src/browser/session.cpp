@@ -89,6 +89,9 @@ void Session::note(experiment::Input input) {
 }
 
 void Session::push(Vec3 impulse_n_s) {
+  for (const double part : {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z})
+    if (!std::isfinite(static_cast<float>(part)))
+      fail(ExitCode::bad_input, "push: expected three numbers, N s");
   note({.push_n_s = impulse_n_s});
 }
 
@@ -112,6 +115,7 @@ void Session::set_damage(const std::string& json) {
 }
 
 int Session::step(int count) {
+  if (count < 0) fail(ExitCode::bad_input, "step: {}: expected 0 or more", count);
   for (int i = 0; i < count; ++i) {
     if (!trial_->step()) return i;
     record_.trace.push_back(static_cast<std::uint32_t>(trial_->engine().state_hash(LiveTrial::lane)));

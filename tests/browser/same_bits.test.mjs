@@ -47,6 +47,21 @@ test("the native program tells the first step that is another, and another champ
   assert.equal(again(champion, robot.inputs(), "same").status, 0);
 });
 
+test("what cannot be done at once is refused any number of times, and the walk goes on as if it had not been asked", async () => {
+  const champion = text(source("robots/servo/champion.json"));
+  const robot = await LiveRobot.open(module, champion), undisturbed = await LiveRobot.open(module, champion);
+  for (let i = 0; i < 1000; ++i) {
+    for (const wrong of [-1, 0, 101, NaN, "1 m", undefined]) assert.throws(() => robot.lift(wrong), /lift: expected more than 0 and at most 100 m/);
+    for (const wrong of [[NaN, 0, 0], [1e300, 0, 0], [1], undefined]) assert.throws(() => robot.push(wrong), /push: expected 3 numbers, N s/);
+    assert.throws(() => robot.command([0.1, 0]), /command: this champion senses no commands/);
+    for (const wrong of [-5, 0.5, NaN, undefined]) assert.throws(() => robot.step(wrong), /step: expected a whole number/);
+  }
+  assert.equal(robot.step(50), undisturbed.step(50));
+  assert.equal(robot.hash(), undisturbed.hash());
+  const told = await LiveRobot.open(module, text(source("robots/hexapod/steered.json")));
+  for (const wrong of [[NaN, 0], [1], undefined]) assert.throws(() => told.command(wrong), /command: expected 2 numbers, m\/s and rad\/s/);
+});
+
 test("what does not fit the robot is refused in a sentence, and the walk goes on as if it had not been asked", async () => {
   const champion = text(source("robots/servo/champion.json"));
   const robot = await LiveRobot.open(module, champion), undisturbed = await LiveRobot.open(module, champion);

@@ -212,6 +212,16 @@ TEST(Session, RefusesCommandsThatNobodySensesOrThatAreNone) {
   EXPECT_EQ(deaf.trace(), undisturbed.trace());
 }
 
+TEST(Session, RefusesPushesThatAreNoNumbersAndStepsBackwards) {
+  Session session(tests::champion_text()), undisturbed(tests::champion_text());
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})
+    EXPECT_THROW(session.push({0.0, wrong, 0.0}), UserError);
+  EXPECT_THROW(session.step(-1), UserError);
+  session.step(10);
+  undisturbed.step(10);
+  EXPECT_EQ(session.trace(), undisturbed.trace());
+}
+
 TEST(Session, RefusesWhatIsNoChampion) {
   EXPECT_THROW(Session("{}"), UserError);
   EXPECT_THROW(Session("no JSON"), UserError);

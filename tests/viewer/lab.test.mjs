@@ -337,6 +337,36 @@ test("each experiment sets up the lab, and its runs stay in the diagram to compa
     assert.match(await page.locator("#curves .keys").textContent(), /With touch/);
   }));
 
+/** Whether the browser would ask before the page is left. */
+const asks = (page) => page.evaluate(() => !dispatchEvent(new Event("beforeunload", { cancelable: true })));
+
+test("a page with generations that were not saved is left only if that is confirmed", () =>
+  inLab(STILL, async (page) => {
+    assert.ok(!(await asks(page)));
+    await set(page, { ...SMALL, generations: 500 });
+    await button(page, "Start").click();
+    await until(page, 2);
+    await button(page, "Pause").click();
+    await page.waitForFunction(() => window.amble.evolution.state === "paused");
+    assert.ok(await asks(page));
+    await Promise.all([page.waitForEvent("download"), button(page, "Save the run").click()]);
+    await page.waitForFunction(() => !window.amble.unsaved);
+    assert.ok(!(await asks(page)));
+    await button(page, "Stop and begin anew").click();
+    await set(page, { ...SMALL, generations: 5 });
+    await button(page, "Start").click();
+    await page.waitForFunction(() => window.amble.evolution.state === "ended");
+    assert.ok(!(await asks(page)), "it is over soon, and made again as soon");
+    await page.evaluate(() => (window.amble.opened_ms -= 61_000));
+    assert.ok(await asks(page));
+    const asked = [];
+    page.removeAllListeners("dialog");
+    page.once("dialog", (dialog) => (asked.push(dialog.message()), dialog.dismiss()));
+    await button(page, "Stop and begin anew").click();
+    assert.match(asked[0], /^5 generations are over, and were not saved\. Leave it\?/);
+    assert.equal(await page.evaluate(() => window.amble.evolution.state), "ended");
+  }));
+
 test("a run that goes on is left for an experiment only if that is confirmed", () =>
   inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 500 });

@@ -374,6 +374,9 @@ test("it evolves twenty generations in the page, whose best walks there and is a
     const champion = join(AMBLE_PAGES, "evolved.json");
     writeFileSync(champion, await page.evaluate(() => window.amble.live().champion));
     assert.match(await natively(page, "evolved-inputs.json", champion), /^bits +the same in every step$/m);
+    assert.ok(await page.evaluate(() => !dispatchEvent(new Event("beforeunload", { cancelable: true }))), "the browser asks before it is left");
+    await Promise.all([page.waitForEvent("download"), button("Save the best").click()]);
+    assert.ok(await page.evaluate(() => dispatchEvent(new Event("beforeunload", { cancelable: true }))));
     await button("Go on").click();
     await page.waitForFunction((before) => [...document.querySelectorAll("#live [role=status]")].at(-1).textContent !== before, paused);
     await button("From nothing again").click();

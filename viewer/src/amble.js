@@ -26,6 +26,8 @@ import { patched } from "./patch.js";
  */
 
 const CELLS = 256; // of uneven ground, in x and in y
+const MOST_STEPS = 1e9; // in one call
+const MOST_LIFT_M = 100; // src/experiment/problem/live_trial.cpp
 const NOT_HERE = 52; // what a system answers that has no such function
 
 /** What the module asks of a system: the time. Everything else it does without. */
@@ -125,6 +127,14 @@ function checkChampion(text) {
   if (file?.format !== "amble-champion") throw new Error("This is not a champion's file of amble.");
 }
 
+/** So many single-precision numbers. What the module refuses ends it, so that it is asked for nothing that it would. */
+function numbers(what, values, count, unit) {
+  const all = Array.from(values ?? []);
+  if (all.length !== count || !all.every((value) => typeof value === "number" && Number.isFinite(Math.fround(value))))
+    throw new Error(`${what}: expected ${count} numbers, ${unit}`);
+  return all;
+}
+
 export class LiveRobot {
   /**
    * @param {WebAssembly.Module} module of chooseModule()
@@ -137,6 +147,7 @@ export class LiveRobot {
     Object.assign(robot, { module, champion, calls: [] });
     robot.machine = await Machine.start(module);
     robot.machine.give("open", champion);
+    robot.hears = robot.describe().commands !== null;
     return robot;
   }
 
@@ -159,10 +170,11 @@ export class LiveRobot {
 
   /**
    * Advances by so many steps; fewer only if the simulation breaks down.
-   * @param {number} count
+   * @param {number} count 0 or more
    * @returns {number} steps made
    */
   step(count) {
+    if (!(Number.isInteger(count) && count >= 0 && count <= MOST_STEPS)) throw new Error(`step: expected a whole number from 0 to ${MOST_STEPS}, not ${count}`);
     const done = this.machine.exports.amble_step(count);
     const last = this.calls.at(-1);
     if (last?.steps) last.steps += done;
@@ -171,7 +183,8 @@ export class LiveRobot {
   }
 
   /** An impulse on the root's centre of mass in the next step, N s, world frame. */
-  push([x, y, z]) {
+  push(impulse) {
+    const [x, y, z] = numbers("push", impulse, 3, "N s");
     const action = ({ exports }) => exports.amble_push(x, y, z);
     action(this.machine);
     this.calls.push(action);
@@ -179,13 +192,16 @@ export class LiveRobot {
 
   /** Lifts it, as it is, by up to 100 m before the next step, and lets it fall. */
   lift(height_m) {
+    if (!(height_m > 0 && height_m <= MOST_LIFT_M)) throw new Error(`lift: expected more than 0 and at most ${MOST_LIFT_M} m, not ${height_m}`);
     const action = ({ exports }) => exports.amble_lift(height_m);
     action(this.machine);
     this.calls.push(action);
   }
 
   /** What it is told from the next step on: speed along its own axis, m/s, and turning to the left, rad/s. Description.commands is there. */
-  command([speed_m_s, turn_rad_s]) {
+  command(told) {
+    if (!this.hears) throw new Error("command: this champion senses no commands; configs/steer evolves one that does");
+    const [speed_m_s, turn_rad_s] = numbers("command", told, 2, "m/s and rad/s");
     const action = ({ exports }) => exports.amble_command(speed_m_s, turn_rad_s);
     action(this.machine);
     this.told = action;

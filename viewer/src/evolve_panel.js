@@ -1,6 +1,7 @@
 // Evolution in the page: what is chosen, the curve of what came out, and its best.
 import { niceAxis, number } from "./plot.js";
 import { colour, element } from "./theme.js";
+import { askBeforeLeaving } from "./unsaved.js";
 import { button, group, row, slider } from "./widgets.js";
 
 const HEIGHT = 170, LEFT = 40, RIGHT = 8, BELOW = 22, BANDS = 34;
@@ -23,7 +24,7 @@ export class EvolvePanel {
       row("Feels its feet", this.feels, () => ""), row("Seed", this.seed, () => ""),
     ];
     this.start = button("Evolve", () => this.toggle());
-    this.again = button("From nothing again", () => this.stop());
+    this.again = button("From nothing again", () => (!this.unsaved || confirm("The best of this run is not saved. Begin from nothing?")) && this.stop());
     this.show = button("Show the best", () => this.live.show(this.best.text, this.best.generation));
     this.save = button("Save the best", () => this.saveBest(), { title: "A champion's file, which all commands of amble take" });
     this.status = element("p", { class: "lead", role: "status" });
@@ -36,7 +37,12 @@ export class EvolvePanel {
       show();
     }
     new ResizeObserver(() => this.paint()).observe(this.canvas);
+    askBeforeLeaving(() => this.unsaved);
     this.refresh();
+  }
+
+  get unsaved() {
+    return this.best !== null && this.best !== this.saved;
   }
 
   settings() {
@@ -84,6 +90,7 @@ export class EvolvePanel {
     const link = element("a", { href: URL.createObjectURL(new Blob([this.best.text], { type: "application/json" })), download: "champion.json" });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    this.saved = this.best;
   }
 
   refresh() {

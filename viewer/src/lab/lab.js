@@ -2,6 +2,7 @@
 import { Machine } from "../amble.js";
 import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
+import { askBeforeLeaving } from "../unsaved.js";
 import { Curve, kindsOf } from "./curve.js";
 import { Earlier } from "./earlier.js";
 import { Ends } from "./ends.js";
@@ -21,6 +22,7 @@ const SAY_EVERY = 10; // generations, to screen readers
 const MORE = 100; // generations, after the end
 const NAMED = 2; // settings, in the name of a run
 const PREVIEW_MS = 250; // after the last change of a setting
+const BRIEF_MS = 60_000; // from the start of a run
 const byId = (id) => document.getElementById(id);
 
 export class Lab {
@@ -44,6 +46,7 @@ export class Lab {
     this.inside = new Inside(byId("inside"));
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.files = new Files(this);
+    askBeforeLeaving(() => this.unsaved);
     onThemeChange(() => this.repaint());
   }
 
@@ -88,10 +91,17 @@ export class Lab {
     }
   }
 
-  /** Whether what runs, or pauses, may be given up. */
+  /** Whether the run has generations that were not saved. One that is over soon is made again as soon, by its seed. */
+  get unsaved() {
+    const { evolution, progress } = this;
+    if (!evolution || !progress || this.saved === progress.generation) return false;
+    return evolution.state === "running" || evolution.state === "paused" || performance.now() - this.opened_ms > BRIEF_MS;
+  }
+
+  /** Whether the run may be given up. */
   mayLeave() {
-    const { state } = this.evolution ?? {}, goesOn = (state === "running" || state === "paused") && this.progress;
-    return !goesOn || confirm(`${this.progress.generation + 1} generations are over, and the run is not. Leave it? What is not saved is lost.`);
+    const { state } = this.evolution ?? {}, over = state !== "running" && state !== "paused";
+    return !this.unsaved || confirm(`${this.progress.generation + 1} generations are over, ${over ? "and were not saved" : "and the run is not"}. Leave it? What is not saved is lost.`);
   }
 
   setUp(experiment, step) {
@@ -157,7 +167,7 @@ export class Lab {
       changedPlan: (changes) => this.nextPlan(changes), changed: (generation, changes) => this.worldChanged(generation, changes),
       trouble: (error) => this.broken(error),
     });
-    Object.assign(this, { settings, progress: null, best: null, newest: null, elite: false });
+    Object.assign(this, { settings, progress: null, best: null, newest: null, elite: false, saved: null, opened_ms: performance.now() });
     await this.evolution.open(plan, files);
     this.curve.begin(this.runName(settings));
     this.ends.begin();

@@ -25,9 +25,10 @@ export class Files {
 
   /** The run's folder, and what the lab remembers of it: how it looked, and which changes of the world are still to come. */
   async saveRun() {
-    const { lab } = this, { evolution, curve, settings } = lab, files = await evolution.files();
+    const { lab } = this, { evolution, curve, settings } = lab, { generation } = lab.progress, files = await evolution.files();
     const memory = { settings, robot: { name: lab.robot().name }, history: curve.history, marks: curve.marks, changes: evolution.changes };
     download(runBlob(files, memory), "amble-run.tar");
+    lab.saved = generation;
   }
 
   open(file) {
@@ -83,6 +84,7 @@ export class Files {
     const changes = memory.changes ?? lossToCome(settings, memory.marks, facts);
     for (const { generation, settings: changed, planned } of changes) lab.evolution.changeAt(generation, changed, planned);
     await this.showRun(history, memory.marks);
+    lab.saved = lab.progress?.generation;
     const loss = lab.evolution.changes.find(({ planned }) => planned);
     lab.say(`The run is open: ${lab.evolution.generation} generations are over. ${loss ? `A leg is lost at generation ${Math.max(loss.generation, lab.evolution.generation)}. ` : ""}` +
             (lab.evolution.state === "ended" ? "It can have more." : "Press Go on."));
