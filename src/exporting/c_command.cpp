@@ -18,10 +18,13 @@ void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s) {
 
 )";
 
-constexpr std::string_view heading_text = R"(static float within_half_a_turn(float angle_rad) {
-  return angle_rad > 3.14159265f    ? angle_rad - 6.28318531f
-         : angle_rad < -3.14159265f ? angle_rad + 6.28318531f
-                                    : angle_rad;
+constexpr std::string_view heading_text =
+    R"(/* Also of a yaw that is counted on from turn to turn; one beyond a million is none. */
+static float within_half_a_turn(float angle_rad) {
+  const float turns = angle_rad / 6.28318531f;
+  if (!(angle_rad > 3.14159265f || angle_rad < -3.14159265f)) return angle_rad;
+  if (!(angle_rad > -1e6f && angle_rad < 1e6f)) return angle_rad - angle_rad;
+  return angle_rad - 6.28318531f * (float)(int32_t)(turns > 0.0f ? turns + 0.5f : turns - 0.5f);
 }
 
 /* How far the heading that the commanded turns have led to is to the left of the robot's. */
@@ -29,7 +32,7 @@ static void update_heading($p_state *state, const $p_sensors *in) {
   const float turned_rad = state->command_turn_rad_s * $tick;
   if (!state->faces && in->yaw_rad - in->yaw_rad == 0.0f) { /* the first finite one */
     state->faces = 1;
-    state->wanted_yaw_rad = in->yaw_rad;
+    state->wanted_yaw_rad = within_half_a_turn(in->yaw_rad);
   }
   state->heading_error_rad = within_half_a_turn(state->wanted_yaw_rad - in->yaw_rad);
   state->wanted_yaw_rad = within_half_a_turn(state->wanted_yaw_rad + turned_rad);

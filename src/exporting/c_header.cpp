@@ -52,7 +52,7 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, const robo
   if (tables.reads_attitude())
     lines.push_back(
         "  roll_rad, pitch_rad, yaw_rad  of the trunk against the world (x forward, y left, z up): "
-        "R_z(yaw) R_y(pitch) R_x(roll)");
+        "R_z(yaw) R_y(pitch) R_x(roll); each from -pi to pi");
   if (tables.reads_speeds())
     lines.push_back("  speed_rad_s[joint]  rad/s: (angle now - angle one tick ago) / tick; 0 at first");
   if (tables.reads_torques())

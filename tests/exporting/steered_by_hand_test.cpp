@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "amble/io/file.hpp"
 #include "tests/exporting/champions.hpp"
 #include "tests/exporting/compiled.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -59,6 +60,53 @@ TEST_P(EachWalker, CompilesAndPassesItsSelfTestWhateverTheGains) {
     EXPECT_EQ(run_shell("'" + (scratch / "self").string() + "'").out,
               "walker: 100 ticks, largest error 0 rad\n");
   }
+}
+
+/// Two walkers that turn by a half of what they are told: the yaw of one is wrapped, that of the other
+/// counted on from two turns to the left.
+constexpr std::string_view turning_main = R"(#include <stdio.h>
+#include "walker.h"
+int main(void) {
+  walker_state wrapped, counted;
+  walker_sensors in = {0};
+  walker_targets targets;
+  float yaw = 0.0f, within = 0.0f;
+  walker_init(&wrapped);
+  walker_init(&counted);
+  walker_set_command(&wrapped, 0.3f, 0.5f);
+  walker_set_command(&counted, 0.3f, 0.5f);
+  for (int tick = 0; tick < 5000; ++tick) {
+    in.yaw_rad = within;
+    walker_step(&wrapped, &in, &targets);
+    in.yaw_rad = yaw + 12.5663706f;
+    walker_step(&counted, &in, &targets);
+    const float apart = wrapped.heading_error_rad - counted.heading_error_rad;
+    const float short_way = apart > 3.0f ? apart - 6.28318531f : apart < -3.0f ? apart + 6.28318531f : apart;
+    if (short_way > 0.001f || short_way < -0.001f || wrapped.heading_error_rad > 3.142f || counted.heading_error_rad > 3.142f)
+      printf("tick %d: %g and %g\n", tick, (double)wrapped.heading_error_rad, (double)counted.heading_error_rad);
+    yaw += 0.0025f;
+    within += 0.0025f;
+    if (within > 3.14159265f) within -= 6.28318531f;
+  }
+  in.yaw_rad = 1e9f;
+  walker_step(&counted, &in, &targets);
+  printf("%.1f, %g\n", (double)yaw, (double)counted.heading_error_rad);
+  return 0;
+}
+)";
+
+TEST(SteeredByHand, AYawThatIsCountedOnFromTurnToTurnIsAsGoodAsOneWithinHalfATurn) {
+  const auto samples = walkers();
+  const auto plain = std::ranges::find(samples, "quadruped_supg", &Sample::name);
+  ASSERT_NE(plain, samples.end());
+  experiment::Champion champion = evolve(*plain);
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.5}}});
+  champion.problem.set_differential({.turn_gain = 1.0, .heading_gain = 1.0});
+  const TemporaryFolder scratch;
+  write_walker(scratch.path(), champion);
+  io::write_file(scratch / "turning.c", turning_main);
+  ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags, scratch / "turning.c", "turning"), "");
+  EXPECT_EQ(run_shell("'" + (scratch / "turning").string() + "'").out, "12.5, 0\n");
 }
 
 }  // namespace
