@@ -2,13 +2,11 @@
 
 import re
 
+from tool_input import Wrong
+
 BLANKED = "label ref cite texttt begin end figurefile bibliography bibliographystyle".split()
 WORDS = """two three four five six seven eight nine ten eleven twelve thirteen fifteen sixteen twenty thirty hundred thousand half
            third quarter"""
-
-
-class Wrong(Exception):
-    """What makes the article and the ledgers differ, in one line."""
 
 
 def braced(text, at):

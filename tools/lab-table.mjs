@@ -6,27 +6,28 @@
 //   tools/lab-table.mjs PROGRAM experiments [--seeds 3] [--folder DIR]     all experiments, or those that are named: --only leg,map
 //   tools/lab-table.mjs PROGRAM costs                                      seconds of a processor, and megabytes
 //
-// DIR (default: runs/lab) keeps the runs; what is there is not run again. --processes 2 go at a time.
+// DIR (default: runs/lab) keeps the runs; what is there of the same settings and program is not run again. --processes 2 go at a time.
+// Example: tools/lab-table.mjs build/release/src/cli/amble experiments --only leg --seeds 1
 import { execFile, execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { parseArgs, promisify } from "node:util";
+import { promisify } from "node:util";
 import { chooseModule } from "../viewer/src/amble.js";
 import { EXPERIMENTS } from "../viewer/src/lab/experiments.js";
 import { DEFAULTS, WORLD, changedPlan, planOf } from "../viewer/src/lab/plan.js";
+import { count, fail, programAt, readArguments, someOf, versionOf } from "./tool_input.mjs";
 
 const source = (name) => fileURLToPath(new URL(`../${name}`, import.meta.url));
-const { values: options, positionals: [program, what] } = parseArgs({
-  allowPositionals: true,
-  options: { seeds: { type: "string" }, folder: { type: "string", default: "runs/lab" }, only: { type: "string" }, processes: { type: "string", default: "2" } },
-});
-if (!program || !["first", "experiments", "costs"].includes(what)) {
-  console.error("tools/lab-table.mjs PROGRAM first|experiments|costs [--seeds N] [--folder DIR] [--only ID,…] [--processes N]");
-  process.exit(2);
-}
-process.env.AMBLE_PROGRAM = resolve(program);
+const { values: options, positionals: [program, what] } = readArguments({
+  seeds: { type: "string" }, folder: { type: "string", default: "runs/lab" }, only: { type: "string" }, processes: { type: "string", default: "2" },
+}, 2);
+if (!["first", "experiments", "costs"].includes(what)) fail(`${what ?? "no table"}: expected PROGRAM first|experiments|costs (tools/lab-table.mjs --help)`);
+process.env.AMBLE_PROGRAM = programAt(program);
+const processes = count("--processes", options.processes), seedsAsked = options.seeds && count("--seeds", options.seeds);
+const only = someOf("--only", options.only, EXPERIMENTS.map(({ id }) => id));
+const version = versionOf(process.env.AMBLE_PROGRAM);
 const { LabRun, robotsOf } = await import("../tests/browser/lab_runs.mjs");
 
 const folder = resolve(options.folder), lab = join(folder, "lab.html"), run = promisify(execFile);
@@ -63,10 +64,10 @@ async function evolve(settings, robot, at) {
   renameSync(`${at}.part`, at);
 }
 
-/** Where a run with these settings is. */
+/** Where a run with these settings, of this program, is. */
 function placeOf(settings) {
   const robot = robots.get(settings.robotName), lost = settings.lost !== "never" && settings.lostAt;
-  return join(folder, createHash("sha256").update(JSON.stringify([planOf(settings, robot), lost])).digest("hex").slice(0, 16));
+  return join(folder, createHash("sha256").update(JSON.stringify([planOf(settings, robot), lost, version])).digest("hex").slice(0, 16));
 }
 
 /** Makes it, if it is not there; gives the rows of its table. */
@@ -91,13 +92,13 @@ async function allRows(all) {
       console.error(`${settings.robotName}: ${settings.label}, seed ${settings.seed}; ${queue.length} to come`);
     }
   };
-  await Promise.all(Array.from({ length: Number(options.processes) }, work));
+  await Promise.all(Array.from({ length: processes }, work));
   return (settings) => made.get(placeOf(settings));
 }
 
 const metres = (value) => value.toFixed(1);
 const line = (...cells) => console.log(`| ${cells.join(" | ")} |`);
-const seeds = (count) => Array.from({ length: Number(options.seeds ?? count) }, (_, i) => i + 1);
+const seeds = (count) => Array.from({ length: seedsAsked ?? count }, (_, i) => i + 1);
 const shown = robots.has(DEFAULTS.robot) ? DEFAULTS.robot : [...robots.keys()][0];
 const complete = (set, robotName, label) => ({ ...DEFAULTS, ...WORLD, ...set, robotName, label });
 const sum = (values) => values.reduce((total, value) => total + value, 0);
@@ -183,7 +184,7 @@ function flat(run) {
 
 /** What came out of each step of each experiment. */
 async function experiments() {
-  const chosen = EXPERIMENTS.filter(({ id }) => !options.only || options.only.split(",").includes(id)), all = [];
+  const chosen = EXPERIMENTS.filter(({ id }) => only.includes(id)), all = [];
   for (const { id, title, steps } of chosen)
     for (const { name, set } of steps) {
       const own = set.seed !== undefined ? [set.seed] : seeds(3);

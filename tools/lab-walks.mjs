@@ -4,27 +4,24 @@
 //   tools/lab-walks.mjs PROGRAM [--folder runs/walks] [--only first,luck] [--widths 360,800] [--schemes dark] [--scale 1]
 //
 // Writes FOLDER/WALK-WIDTH-SCHEME-N-MOMENT.png: the whole page at each moment. Once before: viewer/install-packages.
+// Example: tools/lab-walks.mjs build/release/src/cli/amble --only first --widths 360
 import { mkdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { parseArgs } from "node:util";
+import { fail, programAt, readArguments, someOf } from "./tool_input.mjs";
 
 const text = { type: "string" };
-const { values: options, positionals: [program] } = parseArgs({
-  allowPositionals: true,
-  options: { folder: { ...text, default: "runs/walks" }, only: text, widths: text, schemes: text, scale: { ...text, default: "1" } },
-});
-if (!program) {
-  console.error("tools/lab-walks.mjs PROGRAM [--folder DIR] [--only ID,…] [--widths PX,…] [--schemes light,dark] [--scale 1]");
-  process.exit(2);
-}
+const { values: options, positionals: [program] } = readArguments(
+  { folder: { ...text, default: "runs/walks" }, only: text, widths: text, schemes: text, scale: { ...text, default: "1" } }, 1);
+if (!program) fail("expected a PROGRAM (tools/lab-walks.mjs --help)");
+if (!(Number(options.scale) > 0)) fail(`--scale ${options.scale}: expected a number above 0`);
 const folder = resolve(options.folder);
-mkdirSync(folder, { recursive: true });
-Object.assign(process.env, { AMBLE_PROGRAM: resolve(program), AMBLE_PAGES: folder, AMBLE_SOURCE: fileURLToPath(new URL("..", import.meta.url)) });
-const { launch } = await import("../tests/viewer/browser.mjs");
+Object.assign(process.env, { AMBLE_PROGRAM: programAt(program), AMBLE_PAGES: folder, AMBLE_SOURCE: fileURLToPath(new URL("..", import.meta.url)) });
+const { launch } = await import("../tests/viewer/browser.mjs").catch((error) => fail(`${error.message.split("\n")[0]}: run viewer/install-packages`));
 const { SCHEMES, WALKS, WIDTHS, makePages, take } = await import("../tests/viewer/lab_walks.mjs");
 
-const chosen = (words, all) => (words ? all.filter((one) => words.split(",").includes(String(one.id ?? one))) : all);
+const only = someOf("--only", options.only, WALKS.map(({ id }) => id));
+const widths = someOf("--widths", options.widths, WIDTHS).map(Number), schemes = someOf("--schemes", options.schemes, SCHEMES);
 /** Diagrams are painted when they come into sight. */
 const scrollThrough = (page) => page.evaluate(async () => {
   const was = scrollY;
@@ -35,10 +32,11 @@ const scrollThrough = (page) => page.evaluate(async () => {
   scrollTo(0, was);
 });
 
+mkdirSync(folder, { recursive: true });
 const pages = makePages(), browser = await launch();
-for (const walk of chosen(options.only, WALKS))
-  for (const width of chosen(options.widths, WIDTHS))
-    for (const scheme of chosen(options.schemes, SCHEMES)) {
+for (const walk of WALKS.filter(({ id }) => only.includes(id)))
+  for (const width of WIDTHS.filter((one) => widths.includes(one)))
+    for (const scheme of SCHEMES.filter((one) => schemes.includes(one))) {
       let count = 0;
       const problems = await take(browser, pages, walk, [width, scheme], async (page, name) => {
         const path = join(folder, `${walk.id}-${width}-${scheme}-${++count}-${name.replaceAll(/\W+/g, "-")}.png`);

@@ -7,33 +7,35 @@
 //
 // The stage alone is shown; --whole keeps title and diagrams. --camera follow|orbit|still, --layout side|ghosts. Once before:
 // viewer/install-packages. CHROMIUM=PATH names another browser.
+// Example: tools/render-video.mjs walker.html walker.mp4 --to 5
 import { spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
 import { existsSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { parseArgs } from "node:util";
+import { fail, readArguments as read } from "./tool_input.mjs";
 
-const fail = (text) => { console.error(`render-video: ${text}`); process.exit(2); };
 const text = { type: "string" };
 const { CHROMIUM = "/usr/bin/chromium" } = process.env;
 
 function readArguments() {
   const options = { from: text, to: text, at: text, speed: text, fps: text, size: text, scheme: text, camera: text, layout: text,
                     whole: { type: "boolean" } };
-  try {
-    const { values, positionals: [page, out] } = parseArgs({ options, allowPositionals: true });
-    if (!out || !/\.(mp4|png)$/.test(out)) fail("usage: render-video.mjs PAGE.html OUT.mp4|OUT.png (see its first lines)");
-    if (!existsSync(page)) fail(`${page}: no such file`);
-    const [width, height] = (values.size ?? "1280x720").split("x").map(Number);
-    if (!(width > 0 && height > 0)) fail(`--size ${values.size}: expected WIDTHxHEIGHT`);
-    if (out.endsWith(".mp4") && (width % 2 || height % 2)) fail(`--size ${values.size}: a video needs even numbers`);
-    for (const name of ["from", "to", "at", "speed", "fps"])
-      if (values[name] !== undefined && !(Number(values[name]) >= 0)) fail(`--${name} ${values[name]}: expected a number`);
-    return { page, out, width, height, ...values };
-  } catch (error) {
-    return fail(error.message);
+  const { values, positionals: [page, out] } = read(options, 2);
+  if (!out || !/\.(mp4|png)$/.test(out)) fail("expected PAGE.html OUT.mp4|OUT.png (tools/render-video.mjs --help)");
+  if (!existsSync(page)) fail(`${page}: no such file`);
+  const [, width, height] = (/^(\d+)x(\d+)$/.exec(values.size ?? "1280x720") ?? []).map(Number);
+  if (!(width > 0 && height > 0)) fail(`--size ${values.size}: expected WIDTHxHEIGHT`);
+  if (out.endsWith(".mp4") && (width % 2 || height % 2)) fail(`--size ${values.size}: a video needs even numbers`);
+  for (const name of ["from", "to", "at", "speed", "fps"]) {
+    const value = values[name], least = ["speed", "fps"].includes(name) ? Number.MIN_VALUE : 0;
+    if (value !== undefined && !(value.trim() && Number(value) >= least && Number(value) < Infinity))
+      fail(`--${name} ${value}: expected a number ${least ? "above" : "of at least"} 0`);
   }
+  if (values.to !== undefined && Number(values.to) < Number(values.from ?? 0)) fail(`--to ${values.to}: expected a time after --from`);
+  for (const [name, all] of Object.entries({ scheme: ["light", "dark"], camera: ["follow", "orbit", "still"], layout: ["side", "ghosts"] }))
+    if (values[name] !== undefined && !all.includes(values[name])) fail(`--${name} ${values[name]}: expected one of ${all.join(", ")}`);
+  return { page, out, ...values, width, height };
 }
 
 /** What must be installed; says what is missing. */
