@@ -17,11 +17,13 @@
 #include <vector>
 
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
 #include "python/call_lock.hpp"
+#include "python/interpreter_lock.hpp"
 
 namespace amble::python {
 
@@ -55,10 +57,24 @@ void set_seed(experiment::Config& config, std::optional<std::int64_t> seed);
 py::object to_python(const io::Json& json);
 /// By way of Python's own json module. TypeError or ValueError for what it cannot write.
 io::Json to_json(const py::object& object, const std::string& what);
-/// A str or os.PathLike, made absolute, as the process may go to another folder. TypeError for anything else.
+/// Bytes as a str, those that are not UTF-8 as os.fsdecode() has them: messages name paths.
+py::str text_of(std::string_view bytes);
+/// os.fsdecode(), as path_of() encodes.
+py::str path_text(const std::filesystem::path& path);
+/// A UserWarning at the line that called the module. Throws where warnings are errors.
+void warn(std::string_view text);
+/// Warnings of overrides and other parts that have no effect.
+void warn_of_idle(const experiment::Config& config, const experiment::Problem& problem,
+                  const std::vector<std::string>& assignments);
+/// A str or os.PathLike, made absolute, as the process may go to another folder. TypeError for anything else,
+/// ValueError for nothing.
 std::filesystem::path path_of(const py::object& path);
 /// The same as it was written.
 std::filesystem::path written_path_of(const py::object& path);
+/// Before a page is made: ValueError unless its name ends in .html; UserError where it cannot be written.
+void check_page(const std::filesystem::path& path);
+/// ValueError unless a whole number is in this range: "NAME: …".
+void check_whole(const char* name, int value, int least, int most);
 /// Workers: all processors if there is no number. ValueError unless it is from 1 to 1024.
 int jobs_of(std::optional<int> jobs);
 /// ValueError unless the length of a trial, if there is one, is from 1e-5 to 1e6 s.
@@ -123,7 +139,7 @@ void refuse_unmade() {
 /// Ctrl-C.
 class Interruptible {
  public:
-  /// Set after Ctrl-C or an exception of call(): the work is to end soon.
+  /// Set after Ctrl-C, an exception of call() or where the interpreter ends: the work is to end soon.
   const std::atomic<bool>& stop() const { return stop_; }
   /// For the work: runs a function in the thread that called run(), which has the interpreter's lock, and
   /// waits. An exception of it stops the work and leaves run() in the end.
@@ -133,8 +149,8 @@ class Interruptible {
   void run(const std::function<void()>& work);
 
  private:
-  void listen(std::unique_lock<std::mutex>& lock);
-  void guarded(const std::function<void()>& function);
+  void listen(std::unique_lock<std::mutex>& lock, Unlocked& unlocked);
+  void guarded(const std::function<void()>& function, Unlocked& unlocked);
 
   std::atomic<bool> stop_{false};
   std::mutex mutex_;

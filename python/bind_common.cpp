@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
 #include "python/bind.hpp"
 
 namespace amble::python {
@@ -13,7 +14,7 @@ py::object to_python(const io::Json& json) {
   switch (json.type()) {
     case io::Json::value_t::object: {
       py::dict dict;
-      for (const auto& [key, value] : json.items()) dict[py::str(key)] = to_python(value);
+      for (const auto& [key, value] : json.items()) dict[text_of(key)] = to_python(value);
       return dict;
     }
     case io::Json::value_t::array: {
@@ -22,7 +23,7 @@ py::object to_python(const io::Json& json) {
       return list;
     }
     case io::Json::value_t::string:
-      return py::str(json.get_ref<const std::string&>());
+      return text_of(json.get_ref<const std::string&>());
     case io::Json::value_t::boolean:
       return py::bool_(json.get<bool>());
     case io::Json::value_t::number_integer:
@@ -41,9 +42,31 @@ io::Json to_json(const py::object& object, const std::string& what) {
   return io::parse_json(text.cast<std::string>(), what);
 }
 
+py::str text_of(std::string_view bytes) {
+  PyObject* const text =
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "surrogateescape");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+py::str path_text(const std::filesystem::path& path) {
+  const std::string& bytes = path.native();
+  PyObject* const text =
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<py::ssize_t>(bytes.size()));
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+void warn(std::string_view text) {
+  const py::str message = text_of(text);
+  if (unless_it_ends([&] { return PyErr_WarnFormat(PyExc_UserWarning, 1, "%U", message.ptr()); }) != 0)
+    throw py::error_already_set();
+}
+
 std::filesystem::path path_of(const py::object& path) {
   const auto written = written_path_of(path);
-  return written.empty() ? written : std::filesystem::absolute(written);
+  if (written.empty()) throw py::value_error("a path must not be empty: expected a file or folder");
+  return std::filesystem::absolute(written);
 }
 
 std::filesystem::path written_path_of(const py::object& path) {
@@ -57,11 +80,22 @@ std::filesystem::path written_path_of(const py::object& path) {
   return encoded;
 }
 
+void check_page(const std::filesystem::path& path) {
+  if (path.extension() != ".html")
+    throw py::value_error(fmt::format("page: {}: expected a name that ends in .html", path.string()));
+  io::check_output(path, "<!DOCTYPE html>", "a page");
+}
+
+void check_whole(const char* name, int value, int least, int most) {
+  if (value < least || value > most)
+    throw py::value_error(
+        fmt::format("{}: {}: expected a whole number from {} to {}", name, value, least, most));
+}
+
 int jobs_of(std::optional<int> jobs) {
   constexpr int most = 1024;
   if (!jobs) return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
-  if (*jobs < 1 || *jobs > most)
-    throw py::value_error(fmt::format("jobs: {}: expected a whole number from 1 to {}", *jobs, most));
+  check_whole("jobs", *jobs, 1, most);
   return *jobs;
 }
 
@@ -137,7 +171,7 @@ void Interruptible::call(std::function<void()> function) {
 
 void Interruptible::run(const std::function<void()>& work) {
   {
-    const py::gil_scoped_release release;
+    Unlocked unlocked;
     const std::jthread worker([&] {
       try {
         work();
@@ -149,36 +183,39 @@ void Interruptible::run(const std::function<void()>& work) {
       changed_.notify_all();
     });
     std::unique_lock lock(mutex_);
-    while (!done_) listen(lock);
+    while (!done_) listen(lock, unlocked);
   }
   if (python_failure_) std::rethrow_exception(python_failure_);
   if (failure_) std::rethrow_exception(failure_);
 }
 
-void Interruptible::listen(std::unique_lock<std::mutex>& lock) {
+void Interruptible::listen(std::unique_lock<std::mutex>& lock, Unlocked& unlocked) {
   constexpr std::chrono::milliseconds patience{50};
   changed_.wait_for(lock, patience, [this] { return done_ || request_ != nullptr; });
   if (done_) return;
+  if (ends_elsewhere()) stop_ = true;
   const auto request = request_;
   lock.unlock();
-  guarded(request ? request : [] {
+  const auto heed_signals = [] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  });
+  };
+  guarded(request ? request : heed_signals, unlocked);
   lock.lock();
   if (request) request_ = nullptr;
   changed_.notify_all();
 }
 
 /// Once something was thrown, later calls are left out: the work is to end.
-void Interruptible::guarded(const std::function<void()>& function) {
+void Interruptible::guarded(const std::function<void()>& function, Unlocked& unlocked) {
   if (python_failure_) return;
-  const py::gil_scoped_acquire acquire;
-  try {
-    function();
-  } catch (...) {
-    python_failure_ = std::current_exception();
-    stop_ = true;
-  }
+  unlocked.with_lock([&] {
+    try {
+      function();
+    } catch (...) {
+      python_failure_ = std::current_exception();
+      stop_ = true;
+    }
+  });
 }
 
 }  // namespace amble::python

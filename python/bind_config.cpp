@@ -3,16 +3,25 @@
 #include <algorithm>
 
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/problem.hpp"
 #include "python/bind.hpp"
 
 namespace amble::python {
 namespace {
 
+/// As int and float write themselves: an IntEnum or numpy's float64 has a repr() of its own.
+std::string number_text(const py::handle& number) {
+  const PyTypeObject& type = PyLong_Check(number.ptr()) ? PyLong_Type : PyFloat_Type;
+  const auto text = py::reinterpret_steal<py::object>(type.tp_repr(number.ptr()));
+  if (!text) throw py::error_already_set();
+  return text.cast<std::string>();
+}
+
 /// A Python value as TOML: true, 3, 0.5, "text", [1, 2].
 std::string toml_of(const py::handle& value, const std::string& key) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return py::repr(value);
+  if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return number_text(value);
   if (py::isinstance<py::str>(value))
     return py::module_::import("json")
         .attr("dumps")(value, py::arg("ensure_ascii") = false)
@@ -78,7 +87,7 @@ LoadedConfig configured(const std::filesystem::path& path, const io::TomlDocumen
     value.robot = known->value.robot;
     robot = known->robot;
   } else {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     robot = std::make_shared<const robot::RobotSpec>(experiment::load_robot(value));
   }
   return {path, document, std::move(assignments), std::move(value), std::move(robot)};
@@ -86,24 +95,31 @@ LoadedConfig configured(const std::filesystem::path& path, const io::TomlDocumen
 
 LoadedConfig replaced(const LoadedConfig& config, const py::object& overrides) {
   const auto more = assignments_of(overrides);
-  const bool same_robot = std::ranges::none_of(
-      more, [](const std::string& assignment) { return assignment.starts_with("robot="); });
+  const auto sets = [&more](std::string_view key) {
+    return std::ranges::any_of(more, [key](const std::string& assignment) {
+      return std::string_view(assignment).substr(0, assignment.find('=')) == key;
+    });
+  };
   auto assignments = config.assignments;
   assignments.insert(assignments.end(), more.begin(), more.end());
-  return configured(config.path, config.document, std::move(assignments), same_robot ? &config : nullptr);
+  auto other =
+      configured(config.path, config.document, std::move(assignments), sets("robot") ? nullptr : &config);
+  if (!sets("seed")) other.value.seed = config.value.seed;  // which may have been an argument
+  return other;
 }
 
 /// Path, document, assignments, the robot's path and the robot: needs no other file.
 py::tuple pickled(const LoadedConfig& config) {
-  return py::make_tuple(config.path.string(), config.document.text(), config.assignments, config.value.robot,
-                        experiment::robot_file_text(*config.robot), config.value.seed);
+  return py::make_tuple(path_text(config.path), config.document.text(), config.assignments,
+                        path_text(config.value.robot), experiment::robot_file_text(*config.robot),
+                        config.value.seed);
 }
 
 LoadedConfig unpickled(const py::tuple& state) {
   if (state.size() != 6) throw py::value_error("Config: not its pickled state");
-  const auto name = state[0].cast<std::string>();
+  const auto name = written_path_of(state[0]).string();
   LoadedConfig known{name, io::TomlDocument::parse(state[1].cast<std::string>(), name), {}, {}, nullptr};
-  known.value.robot = state[3].cast<std::string>();
+  known.value.robot = written_path_of(state[3]).string();
   known.robot = std::make_shared<const robot::RobotSpec>(
       experiment::robot_from_text(state[4].cast<std::string>(), name + ": its robot"));
   auto config = configured(name, known.document, state[2].cast<std::vector<std::string>>(), &known);
@@ -130,6 +146,12 @@ void set_seed(experiment::Config& config, std::optional<std::int64_t> seed) {
   config.seed = *seed;
 }
 
+void warn_of_idle(const experiment::Config& config, const experiment::Problem& problem,
+                  const std::vector<std::string>& assignments) {
+  for (const auto& idle : experiment::idle_assignments(config, assignments)) warn("overrides: " + idle);
+  for (const auto& idle : experiment::idle_parts(problem)) warn(idle);
+}
+
 void bind_config(py::module_& module) {
   py::class_<LoadedConfig>(module, "Config", R"(All settings of a run, read and checked (docs/SETTINGS.md).
 
@@ -140,10 +162,11 @@ A change makes another Config: config.replace({"population.size": 50}).)")
           "to_dict", [](const LoadedConfig& self) { return to_python(io::settings_to_json(self.value)); },
           "Every setting with its value, tables as dicts. A copy.")
       .def(
-          "to_toml", [](const LoadedConfig& self) { return self.value.to_toml(); },
+          "to_toml", [](const LoadedConfig& self) { return text_of(self.value.to_toml()); },
           "The whole config as TOML with comments; reads back to the same values.")
       .def("replace", replaced, py::arg("overrides"),
-           "Another Config: what the file said when it was read, with more overrides (load_config).")
+           "Another Config: what the file said when it was read, with more overrides (load_config), and the "
+           "same seed unless they set it.")
       .def(
           "keys",
           [](const LoadedConfig& self) { return to_python(io::settings_to_json(self.value)).attr("keys")(); },
@@ -166,7 +189,7 @@ A change makes another Config: config.replace({"population.size": 50}).)")
           py::arg("key"))
       .def(py::pickle(&pickled, &unpickled))
       .def("__repr__", [](const LoadedConfig& self) {
-        return fmt::format("<amble.Config '{}': {}>", self.value.name, self.path.string());
+        return text_of(fmt::format("<amble.Config '{}': {}>", self.value.name, self.path.string()));
       });
 
   module.def(

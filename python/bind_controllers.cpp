@@ -113,7 +113,7 @@ std::unique_ptr<Controllers> make_controllers(const py::object& problem, const p
   auto task = task_of(problem);
   const auto all = checked_genomes(*task, genomes);
   if (all.empty()) throw py::value_error("genomes: expected at least one");
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return std::make_unique<Controllers>(std::move(task), all);
 }
 
@@ -152,7 +152,7 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
              loads = rows_if_sensed(load_n, "load_n", self.extra.load, self.count, self.legs),
              commands = rows_if_sensed(command, "command", self.extra.commands(), self.count, 2);
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const auto lock = self.lock.hold();
     const LaneArray angles_before_rad = self.sensors.joint_angle_rad,
                     attitudes_before_rad = self.sensors.attitude_rad;
@@ -176,7 +176,7 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
 
 void reset_controllers(Controllers& self, const py::object& mask) {
   const auto chosen = mask_of(mask, self.count);
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   const auto lock = self.lock.hold();
   self.reset(chosen);
 }

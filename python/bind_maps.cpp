@@ -16,6 +16,7 @@
 #include "amble/presentation/map_page.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
+#include "python/trial_choice.hpp"
 
 namespace amble::python {
 namespace {
@@ -38,7 +39,7 @@ struct ReadableMap {
 ReadableMap map_of(const py::object& run) {
   const auto paths = py::isinstance<ReadableRun>(run) ? run.cast<const ReadableRun&>().paths()
                                                       : experiment::find_run(path_of(run));
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return {paths.folder, experiment::load_repertoire(paths)};
 }
 
@@ -99,13 +100,8 @@ ReadableChampion elite_of(const ReadableMap& self, std::optional<std::uint32_t> 
   return {{}, std::move(*champion)};
 }
 
-void check_trials(int trials, int least) {
-  if (trials < least || trials > 1000)
-    throw py::value_error(fmt::format("trials: {}: expected a whole number from {} to 1000", trials, least));
-}
-
 py::dict retest(const ReadableMap& self, int trials, std::optional<int> jobs) {
-  check_trials(trials, 1);
+  check_whole("trials", trials, 1, 1000);
   const int workers = jobs_of(jobs);
   std::optional<experiment::CorrectedMap> corrected;
   Interruptible interruptible;
@@ -132,23 +128,25 @@ py::dict retest(const ReadableMap& self, int trials, std::optional<int> jobs) {
   return dict;
 }
 
-std::string save_map(const ReadableMap& self, const py::object& path, std::optional<int> trials, int walkers,
-                     std::optional<int> jobs) {
-  if (trials) check_trials(*trials, 0);
-  if (walkers < 1) throw py::value_error(fmt::format("walkers: {}: expected at least 1", walkers));
+py::str save_map(const ReadableMap& self, const py::object& path, std::optional<int> trials, int walkers,
+                 std::optional<int> jobs) {
+  if (trials) check_whole("trials", *trials, 0, 1000);
+  check_whole("walkers", walkers, 1, 10000);
   const auto file = path_of(path);
   const presentation::MapFileOptions how{
       .trials = trials, .walkers = static_cast<std::size_t>(walkers), .jobs = jobs_of(jobs)};
   Interruptible interruptible;
   interruptible.run(
       [&] { presentation::write_map_file(self.value, self.run, file, how, interruptible.stop()); });
-  return file.string();
+  return path_text(file);
 }
 
-py::object adapt(const ReadableMap& self, const std::string& damage, const std::string& engine, int trials,
-                 int episodes, int test_trials, const py::object& page, std::optional<int> jobs) {
-  check_trials(trials, 1);
-  if (episodes < 1 || test_trials < 1) throw py::value_error("episodes, test_trials: expected at least 1");
+py::object adapt(const ReadableMap& self, const py::object& damage_or_path, const std::string& engine,
+                 int trials, int episodes, int test_trials, const py::object& page, std::optional<int> jobs) {
+  check_whole("trials", trials, 1, 1000);
+  check_whole("episodes", episodes, 1, 100);
+  check_whole("test_trials", test_trials, 1, 100000);
+  const std::string damage = written_path_of(damage_or_path).string();
   experiment::AdaptSettings settings{.engine = engine,
                                      .damage = experiment::damage_of(damage),
                                      .most_trials = trials,
@@ -157,7 +155,7 @@ py::object adapt(const ReadableMap& self, const std::string& damage, const std::
   std::optional<std::filesystem::path> file;
   if (!page.is_none()) {
     file = path_of(page);
-    io::refuse_to_replace(*file, "<!DOCTYPE html>", "a page");
+    check_page(*file);
   }
   const int workers = jobs_of(jobs);
   std::string text;
@@ -169,16 +167,20 @@ py::object adapt(const ReadableMap& self, const std::string& damage, const std::
     if (!file) return;
     const auto html =
         presentation::adaptation_page(*found, self.value, settings, damage, self.run, interruptible.stop());
-    if (html) io::write_file(*file, *html);
+    if (html) io::write_output(*file, *html);
   });
   py::dict dict = to_python(io::parse_json(text, "adaptation"));
   for (const char* key : {"format", "version", "checksum"}) dict.attr("pop")(key, py::none());
   return dict;
 }
 
-py::object compare(const py::sequence& champions, const std::vector<double>& seconds,
+py::object compare(const py::object& champions, const std::vector<double>& seconds,
                    const std::vector<std::string>& engines, std::string level, int trials,
                    const py::object& noise, bool undisturbed) {
+  if (!py::isinstance<py::sequence>(champions) || py::isinstance<py::str>(champions) ||
+      py::isinstance<py::bytes>(champions))
+    throw py::type_error(fmt::format("champions: expected a list of them, found {}",
+                                     py::str(py::type::of(champions).attr("__name__")).cast<std::string>()));
   std::vector<presentation::NamedChampion> named;
   for (const py::handle& each : champions) {
     const auto object = py::reinterpret_borrow<py::object>(each);
@@ -189,10 +191,10 @@ py::object compare(const py::sequence& champions, const std::vector<double>& sec
     named.push_back({champion.origin(), champion.value});
   }
   for (const double length_s : seconds) check_seconds(length_s);
-  if (trials < 0) throw py::value_error(fmt::format("trials: {}: expected at least 1", trials));
-  presentation::CompareOptions how{.seconds = seconds, .engines = engines};
-  how.disturbance = {.level = std::move(level), .trials = trials, .undisturbed = undisturbed};
-  if (!noise.is_none()) how.disturbance.noise = path_of(noise);
+  const presentation::CompareOptions how{
+      .seconds = seconds,
+      .engines = engines,
+      .disturbance = trial_choice(std::move(level), noise, trials, undisturbed)};
   std::optional<std::vector<presentation::ComparedChampion>> rows;
   Interruptible interruptible;
   interruptible.run([&] { rows = presentation::compare(named, how, interruptible.stop()); });
@@ -207,7 +209,7 @@ void bind_maps(py::module_& module) {
 Read once: what happens to the run later changes nothing.)")
       .def(py::init(&map_of), py::arg("run"), "run: Run or folder. Raises Error for a run of another search.")
       .def_property_readonly(
-          "run", [](const ReadableMap& self) { return self.run.string(); }, "Folder of the run, a str.")
+          "run", [](const ReadableMap& self) { return path_text(self.run); }, "Folder of the run, a str.")
       .def_property_readonly(
           "cells", [](const ReadableMap& self) { return self.elites().cells(); },
           "Cells of the map, filled or not; len() counts those that have an elite.")
@@ -246,11 +248,11 @@ most that can be chosen in the page. Raises Error.)")
 
 damage: such as "missing:FL,weak:FR_knee=0.3", or the path of a config with [damage]. engine: stands for reality.
 trials: at most. episodes: attempts under different noise whose mean is a trial's result. test_trials: trials
-that tell how far it gets before and after. page: path of a page to write. Returns a dict as the command's JSON: intact, damaged, adapted (means),
+that tell how far it gets before and after. page: path of a page to write, FILE.html. Returns a dict as the command's JSON: intact, damaged, adapted (means),
 cell, done, trials. Raises Error.)")
       .def("__repr__", [](const ReadableMap& self) {
-        return fmt::format("<amble.Map of {} cells, {} filled: {}>", self.elites().cells(),
-                           self.elites().size(), self.run.string());
+        return text_of(fmt::format("<amble.Map of {} cells, {} filled: {}>", self.elites().cells(),
+                                   self.elites().size(), self.run.string()));
       });
   refuse_unmade<ReadableMap>();
   module.def("compare", compare, py::arg("champions"), py::arg("seconds") = std::vector<double>{},
@@ -259,7 +261,7 @@ cell, done, trials. Raises Error.)")
              R"(Lets champions walk in several engines, in the same trials, as `amble compare` does.
 
 champions: a sequence of Champion, Run or paths. seconds: lengths of trials (default: as in evolution). engines: besides
-the champions' own (default: all). level, trials: as Champion.typical() has them, 16 trials. noise: path of a config whose
+the champions' own (default: all). level, trials: as Champion.typical() has them, but 16 trials. noise: path of a config whose
 [noise] disturbs in place of a level. undisturbed: one trial without noise.
 Returns a list of dicts, one per champion and length: champion, evolved_in, trial_s, under, results (a list of dicts:
 engine, distance_m (the median), kept (share of that in its own engine), trials). Raises Error.)");

@@ -51,7 +51,7 @@ py::object gait(const py::object& recording, std::optional<double> seconds) {
   std::string text;
   {
     const ReadRecording* const held = in_memory ? &recording.cast<const ReadRecording&>() : nullptr;
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     auto reader = held != nullptr ? held->reader() : record::RecordingReader(path);
     text = gait::report_json(gait::recorded_gait(reader, path.string(), {}, seconds));
   }
@@ -68,19 +68,20 @@ recording["com.x"] is one column, a view of the frames; "angle.fl_knee", "target
 Read once, it needs its file no more. Can be pickled.)")
       .def(py::init([](const py::object& path) {
              const auto file = path_of(path);
-             const py::gil_scoped_release release;
+             const Unlocked unlocked;
              return ReadRecording(file);
            }),
            py::arg("path"), "Raises Error for a file that is not sound.")
       .def_property_readonly(
-          "path", [](const ReadRecording& self) { return self.path.string(); },
+          "path", [](const ReadRecording& self) { return path_text(self.path); },
           "The file that it was read from.")
       .def(py::pickle(
-          [](const ReadRecording& self) { return py::make_tuple(self.path.string(), py::bytes(self.bytes)); },
+          [](const ReadRecording& self) {
+            return py::make_tuple(path_text(self.path), py::bytes(self.bytes));
+          },
           [](const py::tuple& state) {
             if (state.size() != 2) throw py::value_error("Recording: not its pickled state");
-            return std::make_unique<ReadRecording>(state[1].cast<std::string>(),
-                                                   state[0].cast<std::string>());
+            return std::make_unique<ReadRecording>(state[1].cast<std::string>(), written_path_of(state[0]));
           }))
       .def_property_readonly(
           "columns", [](const ReadRecording& self) { return self.header.columns; }, "Their names.")
@@ -93,7 +94,7 @@ Read once, it needs its file no more. Can be pickled.)")
           },
           "completed, fell or diverged.")
       .def_property_readonly(
-          "origin", [](const ReadRecording& self) { return self.header.origin; },
+          "origin", [](const ReadRecording& self) { return text_of(self.header.origin); },
           "The champion that it shows.")
       .def_property_readonly(
           "robot",
@@ -122,14 +123,14 @@ Read once, it needs its file no more. Can be pickled.)")
           py::arg("column"))
       .def("__len__", [](const ReadRecording& self) { return self.count(); })
       .def("__repr__", [](const ReadRecording& self) {
-        return fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),
-                           record::outcome_names[to_index(self.outcome)], self.path.string());
+        return text_of(fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),
+                                   record::outcome_names[to_index(self.outcome)], self.path.string()));
       });
   module.def("gait", gait, py::arg("recording"), py::arg("seconds") = py::none(),
              R"(Names and measures a gait (docs/GAIT.md): the dict that `amble gait --json` writes.
 
 recording: Recording or its path; or a Champion or Run, which walks for it (Champion.gait). seconds: the part of a recording to
-use, from the beginning; of a champion the length of its trial. Raises Error.)");
+use, from the beginning, at most all of a trial that was completed; of a champion the length of its trial. Raises Error.)");
   refuse_unmade<ReadRecording>();
 }
 

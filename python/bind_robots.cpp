@@ -17,9 +17,8 @@ constexpr int most_robots = 1 << 20, most_threads = 1024;
 
 /// A RobotBatch that threads of Python may share: one call at a time.
 struct Robots {
-  Robots(robot::RobotSpec robot, const std::string& engine, const physics::EngineSettings& settings,
-         int count, int threads)
-      : batch(std::move(robot), engine, settings, count, threads) {}
+  Robots(RobotBatch::Kind kind, int count, int threads, const std::atomic<bool>& stop)
+      : batch(std::move(kind), count, threads, stop) {}
 
   RobotBatch batch;
   py::object shown;  ///< the view that step() and reset() return
@@ -37,7 +36,7 @@ struct Robots {
 /// A bare name ("hexapod", "quadruped/paper") is that of one of amble's own robots, unless there is such a
 /// file.
 std::filesystem::path robot_file(const std::filesystem::path& name) {
-  if (name.has_extension() || std::filesystem::exists(name)) return name;
+  if (name.has_extension() || std::filesystem::is_regular_file(name)) return name;
   const py::dict own = py::module_::import("amble._data").attr("robots")();
   std::string names;
   for (const auto& [each, file] : own) {
@@ -48,37 +47,48 @@ std::filesystem::path robot_file(const std::filesystem::path& name) {
        names);
 }
 
-/// The robot of a Config, raised by its drop_m and with its ground's slope and friction, but without its
-/// height field; or that of a robot file.
-robot::RobotSpec robot_of(const py::object& robot) {
-  if (!py::isinstance<LoadedConfig>(robot))
-    return experiment::load_robot_file(robot_file(written_path_of(robot)));
-  const auto& config = robot.cast<const LoadedConfig&>();
-  return experiment::Problem::make(config.value, *config.robot).robot;
+/// The robot of a Config, damaged, raised by its drop_m and with its ground's slope and friction, but without
+/// its height field.
+RobotBatch::Kind kind_of(const LoadedConfig& config, const std::string& engine) {
+  auto problem = experiment::Problem::make(config.value, *config.robot);
+  return {.robot = std::move(problem.robot),
+          .damage = std::move(problem.damage),
+          .engine = engine,
+          .settings = {.timestep_s = problem.trial.timestep_s,
+                       .ground_friction = problem.ground.friction,
+                       .own = std::move(problem.engine_own)}};
+}
+
+/// What makes the kind of a Config, or of a robot file; to be called without the interpreter's lock.
+std::function<RobotBatch::Kind()> maker_of(const py::object& robot, const std::string& engine) {
+  if (py::isinstance<LoadedConfig>(robot))
+    return [config = robot.cast<const LoadedConfig&>(), engine] { return kind_of(config, engine); };
+  return [file = robot_file(written_path_of(robot)), engine] {
+    return RobotBatch::Kind{
+        .robot = experiment::load_robot_file(file), .damage = {}, .engine = engine, .settings = {}};
+  };
 }
 
 std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& engine,
                              std::optional<double> timestep_s, std::optional<int> threads, bool forces) {
-  const auto check = [](const char* name, int value, int most) {
-    if (value < 1 || value > most)
-      throw py::value_error(fmt::format("{}: {}: expected a whole number from 1 to {}", name, value, most));
-  };
-  check("n", n, most_robots);
-  if (threads) check("threads", *threads, most_threads);
+  check_whole("n", n, 1, most_robots);
+  if (threads) check_whole("threads", *threads, 1, most_threads);
   if (timestep_s && !(*timestep_s >= 1e-5 && *timestep_s <= 0.1))
     throw py::value_error(fmt::format("timestep_s: {}: expected a number from 1e-05 to 0.1", *timestep_s));
-  double step_s = timestep_s.value_or(physics::EngineSettings{}.timestep_s);
-  if (!timestep_s && py::isinstance<LoadedConfig>(robot))
-    step_s = robot.cast<const LoadedConfig&>().value.trial.timestep_s;
   physics::check_engine_name(engine, "engine: ");
-  auto spec = robot_of(robot);
+  const auto make_kind = maker_of(robot, engine);
   // More threads than groups of lanes would only wait.
   const int lanes = physics::engine_traits(engine).lanes;
   const int useful = std::min(jobs_of(threads), (n + lanes - 1) / lanes);
-  const py::gil_scoped_release release;
-  return std::make_unique<Robots>(
-      std::move(spec), engine,
-      physics::EngineSettings{.timestep_s = step_s, .torques = forces, .loads = forces}, n, useful);
+  std::unique_ptr<Robots> robots;
+  Interruptible interruptible;
+  interruptible.run([&] {
+    auto kind = make_kind();
+    kind.settings.timestep_s = timestep_s.value_or(kind.settings.timestep_s);
+    kind.settings.torques = kind.settings.loads = forces;
+    robots = std::make_unique<Robots>(std::move(kind), n, useful, interruptible.stop());
+  });
+  return robots;
 }
 
 py::array columns(const Robots& self, int first, int count) {
@@ -114,7 +124,7 @@ py::object step(Robots& self, const py::object& targets) {
   const std::span<const float> span(values.data(), to_index(values.size()));
   bool stepped = false;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const auto lock = self.lock.hold();
     stepped = self.batch.step(span);
   }
@@ -126,7 +136,7 @@ py::object reset(Robots& self, const py::object& mask) {
   self.check_process();
   const auto chosen = mask_of(mask, self.batch.count());
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const auto lock = self.lock.hold();
     self.batch.reset(chosen);
   }
@@ -137,7 +147,7 @@ py::array state_hashes(Robots& self) {
   self.check_process();
   std::vector<std::uint64_t> hashes;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const auto lock = self.lock.hold();
     hashes = self.batch.state_hashes();
   }
@@ -205,27 +215,36 @@ ValueError without forces.)")
 Such a robot keeps its last observations until reset().)");
 }
 
+py::list texts_of(const std::vector<std::string>& lines) {
+  py::list texts;
+  for (const std::string& line : lines) texts.append(text_of(line));
+  return texts;
+}
+
 /// As `amble robot --init`; the config extends the preset that came with the module.
 py::dict new_robot(const py::object& model, const py::object& out) {
   const auto model_file = written_path_of(model);
+  if (model_file.empty()) throw py::value_error("model: expected the path of a model, MJCF or URDF");
   const auto folder = out.is_none() ? std::filesystem::path() : written_path_of(out);
   const auto preset =
       path_of(py::module_::import("amble._data").attr("data_folder")()) / experiment::robot_preset;
-  experiment::RobotFolder written;
-  {
-    const py::gil_scoped_release release;
+  const auto here = std::filesystem::current_path();
+  std::optional<experiment::RobotFolder> written;
+  Interruptible interruptible;
+  interruptible.run([&] {
     written = experiment::write_robot_folder(
-        model_file, folder, std::filesystem::exists(preset) ? std::optional(preset) : std::nullopt);
-  }
+        model_file, folder, std::filesystem::exists(preset) ? std::optional(preset) : std::nullopt,
+        interruptible.stop());
+  });
   py::dict dict;
-  dict["robot"] = written.robot_file.string();
-  dict["config"] = written.config_file.string();
-  if (!written.steer_file.empty()) dict["steer_config"] = written.steer_file.string();
-  dict["ready"] = written.ready;
-  dict["missing"] = written.asked;
-  dict["settled"] = written.settled;
-  dict["warnings"] = written.warnings;
-  dict["text"] = written.text;
+  dict["robot"] = path_text(here / written->robot_file);
+  dict["config"] = path_text(here / written->config_file);
+  if (!written->steer_file.empty()) dict["steer_config"] = path_text(here / written->steer_file);
+  dict["ready"] = written->ready;
+  dict["missing"] = texts_of(written->asked);
+  dict["settled"] = texts_of(written->settled);
+  dict["warnings"] = texts_of(written->warnings);
+  dict["text"] = text_of(written->text);
   return dict;
 }
 
@@ -240,8 +259,8 @@ control order (docs/CONVENTIONS.md). Several threads may use one object; their c
   type.def(
           py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
           py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(), py::arg("forces") = false,
-          R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config, of whose ground slope and
-friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode", "mujoco" or "mujoco-model".
+          R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config, of which damage and the ground's
+slope and friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode", "mujoco" or "mujoco-model".
 timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not depend on it. forces:
 measure torque_nm and load_n, too, which changes nothing else. All robots stand in their start pose. Raises Error.)")
       .def(
@@ -277,7 +296,7 @@ mask: [n], bool: which ones (default: all).)")
       "new_robot", new_robot, py::arg("model"), py::arg("out") = py::none(),
       R"(Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it and a config into a folder.
 
-out: the folder (default: one of the model's name). Returns a dict: robot and config, paths of the two files; ready,
+out: the folder (default: one of the model's name). Returns a dict: robot and config, absolute paths of the two files; ready,
 whether the config can be evolved at once; missing, what is still to be given in the robot file, settled, what was
 guessed and why, warnings, a str each; text, all of it as `amble robot --init` prints it. Nothing is replaced. Raises Error.)");
 }

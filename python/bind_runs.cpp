@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "amble/core/index.hpp"
+#include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
@@ -34,7 +35,9 @@ class CallbackListener : public experiment::RunListener {
       const std::string header = experiment::csv_header(row.search);
       for (const auto& [name, values] : parse_columns(header + experiment::csv_line(row, header)))
         line[py::str(name)] = values.front();
-      (*callback_)(line);
+      const auto returned = py::reinterpret_steal<py::object>(
+          unless_it_ends([&] { return PyObject_CallOneArg(callback_->ptr(), line.ptr()); }));
+      if (!returned) throw py::error_already_set();
     });
   }
 
@@ -43,19 +46,20 @@ class CallbackListener : public experiment::RunListener {
   Interruptible& caller_;
 };
 
-/// A UserWarning for each thing that is odd about the robot.
-void warn_of_start(const experiment::Run& run, Interruptible& caller) {
-  const auto& config = run.config();
-  const auto odd = experiment::odd_at_start(run.robot(), config.engine, config.trial.timestep_s);
-  if (odd.empty()) return;
+/// Warnings of what is odd about the robot, and of what has no effect.
+void warn_of_start(const experiment::Run& run, const std::vector<std::string>& assignments,
+                   Interruptible& caller) {
+  const auto odd = experiment::odd_for_run(run.robot(), run.config());
   caller.call([&] {
-    for (const std::string& line : odd)
-      if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+    for (const std::string& line : odd) warn(line);
+    warn_of_idle(run.config(), run.problem(), assignments);
   });
 }
 
 /// Runs until all generations are done; Ctrl-C or an exception of the callback leaves the last checkpoint.
-ReadableRun execute(const std::function<experiment::Run()>& make, const py::object& on_generation) {
+/// `assignments`: of a new run, which may have no effect.
+ReadableRun execute(const std::function<experiment::Run()>& make, const py::object& on_generation,
+                    const std::optional<std::vector<std::string>>& assignments = {}) {
   if (!on_generation.is_none() && PyCallable_Check(on_generation.ptr()) == 0)
     throw py::type_error("on_generation: expected a function of a dict, or None");
   py::function callback;
@@ -67,7 +71,7 @@ ReadableRun execute(const std::function<experiment::Run()>& make, const py::obje
   interruptible.run([&] {
     auto run = make();
     folder = run.paths().folder;
-    if (run.generation() == 0) warn_of_start(run, interruptible);
+    if (assignments) warn_of_start(run, *assignments, interruptible);
     run.execute(listener, interruptible.stop());
     verdict = run.tally().verdict();
   });
@@ -82,7 +86,7 @@ ReadableRun evolve(const py::object& config, std::optional<std::int64_t> seed, c
   const auto folder = path_of(out);
   const int workers = jobs_of(jobs);
   return execute([&] { return experiment::Run::start(folder, loaded.value, *loaded.robot, workers); },
-                 on_generation);
+                 on_generation, loaded.assignments);
 }
 
 ReadableRun resume(const py::object& run, std::optional<int> generations, const py::object& on_generation,
@@ -144,6 +148,10 @@ experiment::Problem told_problem(const ReadableChampion& self, std::optional<dou
     throw py::value_error(
         "steering: the champion was told nothing in its evolution; expected command as well");
   if (steering) experiment::steer_by_hand(problem, *steering, "steering");
+  if (!command) return problem;
+  if (const auto untold = experiment::untold_commands(problem))
+    warn(fmt::format("command: {}; for more: seconds", *untold));
+  if (const auto unheard = experiment::unheard_commands(problem)) warn("command: " + *unheard);
   return problem;
 }
 
@@ -156,7 +164,8 @@ py::dict run_trial(const ReadableChampion& self, std::optional<double> seconds,
       .seconds = seconds, .engine = engine, .origin = self.origin(), .trace = false};
   if (!record.is_none()) {
     how.record = path_of(record);
-    io::refuse_to_replace(*how.record, record::recording_magic, "a recording");
+    io::check_output(*how.record, record::recording_magic, "a recording");
+    io::make_folder(how.record->parent_path());
   }
   std::optional<experiment::Replay> replay;
   Interruptible interruptible;
@@ -169,14 +178,22 @@ py::dict run_trial(const ReadableChampion& self, std::optional<double> seconds,
   return result;
 }
 
-std::string save_champion(ReadableChampion& self, const py::object& path) {
+/// Throws UserError for a file in the folder in which a run keeps its champions.
+void refuse_among_champions(const std::filesystem::path& file) {
+  const auto folder = std::filesystem::weakly_canonical(file.parent_path()), run = folder.parent_path();
+  if (experiment::is_run_folder(run) && experiment::RunPaths(run).champions == folder)
+    fail(ExitCode::bad_input, "{}: a run keeps its own champions there: name another folder", file.string());
+}
+
+py::str save_champion(ReadableChampion& self, const py::object& path) {
   const auto file = path_of(path);
   if (file.extension() != ".json")
     throw py::value_error(fmt::format("path: {}: expected a name that ends in .json", file.string()));
-  io::refuse_to_replace(file, "{\n  \"format\": \"amble-champion\"", "a champion");
-  io::write_file(file, experiment::champion_text(self.value));
+  refuse_among_champions(file);
+  io::check_output(file, "{\n  \"format\": \"amble-champion\"", "a champion");
+  io::write_output(file, experiment::champion_text(self.value));
   self.path = file;
-  return file.string();
+  return path_text(file);
 }
 
 py::object gait_of(const ReadableChampion& self, std::optional<double> seconds,
@@ -196,8 +213,8 @@ py::object gait_of(const ReadableChampion& self, std::optional<double> seconds,
 }
 
 /// By its ending, as `amble export` writes it.
-std::string export_champion(const ReadableChampion& self, const py::object& path, bool fixed,
-                            const std::optional<std::string>& steering) {
+py::str export_champion(const ReadableChampion& self, const py::object& path, bool fixed,
+                        const std::optional<std::string>& steering) {
   const auto file = path_of(path);
   const std::string ending = file.extension().string();
   if (ending != ".c" && ending != ".json" && ending != ".xml")
@@ -206,6 +223,7 @@ std::string export_champion(const ReadableChampion& self, const py::object& path
   if (fixed && ending != ".c") throw py::value_error("fixed: only with a path that ends in .c");
   if (steering && ending == ".xml")
     throw py::value_error("steering: only with a path that ends in .c or .json");
+  refuse_among_champions(file);
   experiment::Champion champion = self.value;
   if (steering) exporting::steer_by_hand(champion, *steering, "steering");
   Interruptible interruptible;
@@ -217,14 +235,14 @@ std::string export_champion(const ReadableChampion& self, const py::object& path
       return;
     }
     const bool json = ending == ".json";
-    io::refuse_to_replace(file, json ? exporting::export_json_start : "<mujoco",
-                          json ? "a JSON document" : "an MJCF model");
+    io::check_output(file, json ? exporting::export_json_start : "<mujoco",
+                     json ? "a JSON document" : "an MJCF model");
     const std::string text =
         json ? exporting::export_json(champion, interruptible.stop())
              : morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
-    if (!text.empty()) io::write_file(file, text);
+    if (!text.empty()) io::write_output(file, text);
   });
-  return file.string();
+  return path_text(file);
 }
 
 py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
@@ -248,7 +266,7 @@ py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
   py::list all;
   for (const auto& result : *results) all.append(result_dict(result));
   py::dict dict;
-  dict["level"] = used;
+  dict["level"] = text_of(used);
   dict["distance_m"] = distance.median;
   dict["lower_quartile_m"] = distance.lower_quartile;
   dict["upper_quartile_m"] = distance.upper_quartile;
@@ -288,20 +306,21 @@ Read once, it needs its file no more. Can be pickled.)");
       .def(py::init([](const py::object& path) { return champion_at(path_of(path)); }), py::arg("path"),
            "path: champion file, or run folder (its best). Raises Error for a file that is not sound.")
       .def_property_readonly(
-          "path", [](const ReadableChampion& self) { return self.path.string(); },
+          "path", [](const ReadableChampion& self) { return path_text(self.path); },
           "The file that it was read from or saved to; empty for one that has not been saved.")
       .def(
           "save", save_champion, py::arg("path"),
-          R"(Writes it as a champion file (.json) for amble's command line; returns its path, a str. Raises Error.)")
+          R"(Writes it as a champion file (.json) for amble's command line; returns its path, a str. Raises Error, also among the
+champions of a run folder.)")
       .def(py::pickle(
           [](const ReadableChampion& self) {
-            return py::make_tuple(self.path.string(), experiment::champion_text(self.value));
+            return py::make_tuple(path_text(self.path), experiment::champion_text(self.value));
           },
           [](const py::tuple& state) {
             if (state.size() != 2) throw py::value_error("Champion: not its pickled state");
-            const auto path = state[0].cast<std::string>();
             return ReadableChampion{
-                path, experiment::parse_champion(state[1].cast<std::string>(), "Champion").champion};
+                written_path_of(state[0]),
+                experiment::parse_champion(state[1].cast<std::string>(), "Champion").champion};
           }))
       .def_property_readonly("facts", facts_of,
                              R"(A dict: experiment, seed, generation, index, engine, controller, robot,
@@ -326,13 +345,14 @@ something tracking, 0 to 1 (docs/SCORES.md).)")
 
 seconds, engine, command, steering: as in trial(). level: "own" (the noise of its evolution), "control", "micro", "100-micro"
 or "milli" (starts that differ by so many radians); default: its own noise, or "milli" without any.
-noise: path of a config file whose [noise] disturbs instead. trials: their number (default: 64, or 16 in engines
-that run one at a time). jobs: workers.
+noise: path of a config file whose [noise] disturbs instead. trials: their number, at most 100,000 (default: 64, or 16 in
+engines that run one at a time). jobs: workers.
 Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
-fell_share, trials (a list of dicts as trial() returns them, without events and tracking).)")
+fell_share, trials (a list of dicts as trial() returns them, without events).)")
       .def("__repr__", [](const ReadableChampion& self) {
-        return fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
-                           self.value.objective(), self.path.empty() ? "not saved" : self.path.string());
+        return text_of(fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
+                                   self.value.objective(),
+                                   self.path.empty() ? "not saved" : self.path.string()));
       });
 }
 
@@ -343,14 +363,14 @@ It goes on meaning this run: the folder's absolute path is kept, and another run
 pickled, with the path.)")
       .def(py::init([](const py::object& folder) { return ReadableRun(path_of(folder)); }), py::arg("folder"),
            "Raises Error if there is no run.")
-      .def_property_readonly("folder", [](const ReadableRun& self) { return self.folder().string(); })
+      .def_property_readonly("folder", [](const ReadableRun& self) { return path_text(self.folder()); })
       .def_property_readonly(
           "config", [](const ReadableRun& self) { return load_config(self.paths().config, py::none()); },
           "Its Config.")
-      .def(py::pickle([](const ReadableRun& self) { return py::make_tuple(self.paths().folder.string()); },
+      .def(py::pickle([](const ReadableRun& self) { return py::make_tuple(path_text(self.paths().folder)); },
                       [](const py::tuple& state) {
                         if (state.size() != 1) throw py::value_error("Run: not its pickled state");
-                        return ReadableRun(state[0].cast<std::string>());
+                        return ReadableRun(written_path_of(state[0]));
                       }))
       .def("generations", generations_of,
            R"(generations.csv (docs/FORMATS.md) as a dict: column → float64 array,
@@ -366,8 +386,9 @@ one number per generation; NaN for empty cells.)")
             return champions;
           },
           "All champions, in the order of their generations; the last is the best.")
-      .def("__repr__",
-           [](const ReadableRun& self) { return fmt::format("<amble.Run: {}>", self.folder().string()); });
+      .def("__repr__", [](const ReadableRun& self) {
+        return text_of(fmt::format("<amble.Run: {}>", self.folder().string()));
+      });
   module.def("evolve", evolve, py::arg("config"), py::arg("seed") = py::none(), py::kw_only(), py::arg("out"),
              py::arg("on_generation") = py::none(), py::arg("jobs") = py::none(),
              R"(Evolves as `amble evolve` does, to the bit, and returns the Run.

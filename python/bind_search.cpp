@@ -1,8 +1,13 @@
 #include <pybind11/stl.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
@@ -10,6 +15,7 @@
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/generation.hpp"
 #include "amble/experiment/run_files.hpp"
+#include "amble/io/text.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/physics/engine.hpp"
 #include "python/bind.hpp"
@@ -33,10 +39,22 @@ struct OpenSearch {
     return logs;
   }
 
+  /// Where ask() gave a genome, at last if it did so again: round and index. To be called with the lock.
+  std::optional<std::pair<int, int>> origin(const neat::Genome& genome) const {
+    const auto now = state->strategy->ask();
+    if (const auto at = std::ranges::find(now, genome); at != now.end())
+      return std::pair(state->strategy->round(), static_cast<int>(at - now.begin()));
+    for (std::size_t round = told.size(); round-- > 0;)
+      if (const auto at = std::ranges::find(told[round], genome.hash()); at != told[round].end())
+        return std::pair(static_cast<int>(round), static_cast<int>(at - told[round].begin()));
+    return std::nullopt;
+  }
+
   std::shared_ptr<Task> task;
   std::optional<experiment::RunState> state;
-  std::vector<std::string> logs;  ///< as far as they have been taken
-  CallLock lock;                  ///< of state and logs
+  std::vector<std::vector<std::uint64_t>> told;  ///< hashes of the genomes of each round that is over
+  std::vector<std::string> logs;                 ///< as far as they have been taken
+  CallLock lock;                                 ///< of state, told and logs
 };
 
 LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) {
@@ -94,32 +112,39 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
         {.objective = values.at(i),
          .behaviour = rows ? std::span(rows->data(i, 0), to_index(length)) : std::span<const float>(),
          .viable = sound.empty() || sound[to_index(i)] != 0});
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   const auto lock = self.lock.hold();
-  if (self.state->strategy->ask().size() != evaluations.size())
+  const auto genomes = self.state->strategy->ask();
+  if (genomes.size() != evaluations.size())
     throw std::runtime_error("another thread has told the search meanwhile");
+  std::vector<std::uint64_t> hashes;
+  for (const neat::Genome& genome : genomes) hashes.push_back(genome.hash());
   self.state->strategy->tell(evaluations);
+  self.told.push_back(std::move(hashes));
 }
 
-/// Config, checkpoint, logs: as a run folder has them.
+/// Config, checkpoint, logs, as a run folder has them; and the hashes of what was told.
 py::tuple pickled_search(OpenSearch& self) {
   std::string checkpoint;
-  py::list logs;
+  py::list logs, told;
   {
     const auto lock = self.lock.hold();
     for (const std::string& log : self.grown_logs()) logs.append(py::bytes(log));
+    for (const auto& round : self.told)
+      told.append(py::array_t<std::uint64_t>(static_cast<py::ssize_t>(round.size()), round.data()));
     checkpoint = experiment::checkpoint_bytes(self.task->config.value, {}, *self.state->strategy);
   }
-  return py::make_tuple(self.task->config, py::bytes(checkpoint), logs);
+  return py::make_tuple(self.task->config, py::bytes(checkpoint), logs, told);
 }
 
 std::unique_ptr<OpenSearch> unpickled_search(const py::tuple& state) {
   constexpr const char* what = "Search: its pickled state";
-  if (state.size() != 3) throw py::value_error(std::string(what) + " is of another version");
+  if (state.size() != 4) throw py::value_error(std::string(what) + " is of another version");
   auto search = std::make_unique<OpenSearch>(state[0].cast<const LoadedConfig&>());
   auto& strategy = *search->state->strategy;
   experiment::parse_checkpoint(state[1].cast<std::string>(), what, search->task->config.value, strategy);
   search->logs = state[2].cast<std::vector<std::string>>();
+  search->told = state[3].cast<std::vector<std::vector<std::uint64_t>>>();
   if (search->logs.size() != strategy.logs().size())
     throw py::value_error(std::string(what) + " is of another search");
   for (std::size_t i = 0; i < search->logs.size(); ++i) {
@@ -133,21 +158,22 @@ std::unique_ptr<OpenSearch> unpickled_search(const py::tuple& state) {
 ReadableChampion champion_of(OpenSearch& self, const neat::Genome& genome) {
   const Task& task = *self.task;
   checked_genomes(task, py::make_tuple(genome));
-  const auto candidates = ask(self);
-  const auto found = std::ranges::find(candidates, genome);
-  int round = 0;
+  std::optional<std::pair<int, int>> origin;
   {
     const auto lock = self.lock.hold();
-    round = self.state->strategy->round();
+    origin = self.origin(genome);
   }
-  const int index = found == candidates.end() ? 0 : static_cast<int>(found - candidates.begin());
+  if (!origin)
+    fail(ExitCode::bad_input,
+         "genome: this search never gave it; expected one of ask(), as a champion names its round");
   std::optional<experiment::Champion> champion;
   Interruptible interruptible;
   interruptible.run([&] {
     experiment::StageTimes times;
-    champion = experiment::try_champion(task.config.value, task.problem(),
-                                        {.generation = round, .index = index, .genome = genome}, jobs_of({}),
-                                        times, interruptible.stop());
+    champion =
+        experiment::try_champion(task.config.value, task.problem(),
+                                 {.generation = origin->first, .index = origin->second, .genome = genome},
+                                 jobs_of({}), times, interruptible.stop());
   });
   return {{}, std::move(champion).value()};
 }
@@ -155,7 +181,8 @@ ReadableChampion champion_of(OpenSearch& self, const neat::Genome& genome) {
 experiment::ToldGeneration evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes,
                                     int generation, std::int64_t seed, int jobs,
                                     const std::atomic<bool>& stop) {
-  const auto lock = arena.lock.hold();
+  const auto lock = arena.lock.hold(stop);
+  if (!lock) return {};
   auto& evaluator = arena.evaluators[jobs];
   if (!evaluator || !evaluator->works_here())
     evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
@@ -204,10 +231,27 @@ py::object evaluate_genomes(const py::object& on, const py::object& genomes,
       .attr("Evaluation")(std::move(objectives), std::move(behaviours), std::move(viable));
 }
 
+/// Throws UserError for a key that to_dict() does not give.
+void refuse_other_keys(const io::Json& found, const std::string& what,
+                       std::initializer_list<std::string_view> keys) {
+  for (const auto& item : found.items())
+    if (std::ranges::find(keys, item.key()) == keys.end())
+      fail(ExitCode::bad_file, "{}: unknown key '{}': expected {}", what, io::printable(item.key()),
+           fmt::join(keys, ", "));
+}
+
 neat::Genome genome_from(const py::object& dict) {
   if (!py::isinstance<py::dict>(dict)) throw py::type_error("Genome: expected a dict");
   const auto json = to_json(dict, "Genome");
-  return neat::genome_from_json(io::JsonView(json, "Genome"));
+  auto genome = neat::genome_from_json(io::JsonView(json, "Genome"));
+  refuse_other_keys(json, "Genome", {"nodes", "links"});
+  for (std::size_t i = 0; i < genome.nodes.size(); ++i)
+    refuse_other_keys(json["nodes"][i], fmt::format("Genome: nodes[{}]", i), {"id", "kind", "activation"});
+  for (std::size_t i = 0; i < genome.links.size(); ++i)
+    refuse_other_keys(json["links"][i], fmt::format("Genome: links[{}]", i),
+                      {"innovation", "from", "to", "weight", "enabled"});
+  neat::validate(genome, genome.count(neat::NodeKind::input), genome.count(neat::NodeKind::output), true);
+  return genome;
 }
 
 py::object genome_dict(const neat::Genome& genome) {
@@ -218,7 +262,7 @@ void bind_genome(py::module_& module) {
   py::class_<neat::Genome>(
       module, "Genome", R"(A CPPN as NEAT evolves it. Does not change; can be compared, hashed and pickled.)")
       .def(py::init(&genome_from), py::arg("dict"),
-           "From what to_dict() gives. Raises Error naming the key that is wrong.")
+           "From what to_dict() gives. Raises Error naming the key, or the node or link, that is wrong.")
       .def("to_dict", genome_dict,
            R"({"nodes": [{"id", "kind", "activation"}, …], "links": [{"innovation", "from", "to",
 "weight", "enabled"}, …]}, as in champion files.)")
@@ -299,7 +343,10 @@ evaluate() takes it in place of a config, and then starts no workers and reads n
 
 With evaluate(search, genomes) it evolves what evolve() does, to the bit. Can be pickled, and then goes on to the bit.)")
       .def(py::init([](const py::object& config, std::optional<std::int64_t> seed) {
-             return std::make_unique<OpenSearch>(seeded(config, seed));
+             auto search = std::make_unique<OpenSearch>(seeded(config, seed));
+             const LoadedConfig& loaded = search->task->config;
+             warn_of_idle(loaded.value, search->task->problem(), loaded.assignments);
+             return search;
            }),
            py::arg("config"), py::arg("seed") = py::none(),
            "config: Config or path. seed: of all randomness (default: the config's). Raises Error.")
@@ -313,9 +360,10 @@ n × behaviour_length, finite; needed where the config's search compares behavio
 (default: all true); MAP-Elites keeps none that is not. Raises TypeError and ValueError.)")
       .def(
           "champion", champion_of, py::arg("genome"),
-          R"(A genome of this search as a Champion: trial(), typical(), save(), amble.view() and `amble export` take it.
+          R"(A genome that ask() gave, in whatever round, as a Champion: trial(), typical(), save(), amble.view() and `amble
+export` take it.
 
-Its facts are of the config's objective, whatever fitness tell() was given. Raises Error for one that does not fit.)")
+Its facts are of the config's objective, whatever fitness tell() was given, and name that round. Raises Error for any other.)")
       .def(py::pickle(&pickled_search, &unpickled_search))
       .def_property_readonly(
           "round",

@@ -2,6 +2,7 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
 #include "amble/presentation/walkers_page.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
@@ -28,12 +29,12 @@ bool is_recording(const py::object& object) {
 void add_recording(presentation::WalkersPage& page, const py::object& object) {
   if (!py::isinstance<ReadRecording>(object)) {
     const auto path = path_of(object);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return page.add_recording(path);
   }
   // What was read, which its file may not have any more.
   const auto& recording = object.cast<const ReadRecording&>();
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   page.add_recording(recording.bytes, recording.path);
 }
 
@@ -52,7 +53,7 @@ py::list history_of(const py::list& all) {
   const auto run = all.size() == 1 ? run_folder_of(all[0]) : std::nullopt;
   if (!run) throw py::value_error("history: expected one Run, or the path of its folder");
   py::list ages;
-  for (const auto& file : presentation::champions_of_history(*run)) ages.append(file.string());
+  for (const auto& file : presentation::champions_of_history(*run)) ages.append(path_text(file));
   return ages;
 }
 
@@ -66,7 +67,7 @@ struct ViewArguments {
   std::optional<std::string> title;
 };
 
-std::string page_of(const py::list& given, const ViewArguments& arguments) {
+std::string html_of(const py::list& given, const ViewArguments& arguments) {
   check_seconds(arguments.seconds);
   if (given.empty()) throw py::value_error("expected at least one champion, run or recording");
   const auto choice = trial_choice(arguments.level, arguments.noise, arguments.trials, arguments.undisturbed);
@@ -87,8 +88,22 @@ std::string page_of(const py::list& given, const ViewArguments& arguments) {
       throw py::value_error(fmt::format("{}: a recording has been made already", key));
     add_recording(page, object);
   }
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return std::move(page).html();
+}
+
+py::str save_page(const py::object& path, const py::str& html) {
+  const auto file = path_of(path);
+  check_page(file);
+  const auto bytes =
+      py::reinterpret_steal<py::bytes>(PyUnicode_AsEncodedString(html.ptr(), "utf-8", "surrogateescape"));
+  if (!bytes) throw py::error_already_set();
+  const auto text = static_cast<std::string>(bytes);
+  {
+    const Unlocked unlocked;
+    io::write_output(file, text);
+  }
+  return path_text(file);
 }
 
 }  // namespace
@@ -99,12 +114,14 @@ void bind_view(py::module_& module) {
       [](const py::list& shown, std::optional<double> seconds, std::optional<std::string> engine,
          std::string level, py::object noise, int trials, bool undisturbed, bool history,
          std::optional<std::string> title) {
-        return page_of(shown, {seconds, std::move(engine), std::move(level), std::move(noise), trials,
-                               undisturbed, history, std::move(title)});
+        return text_of(html_of(shown, {seconds, std::move(engine), std::move(level), std::move(noise), trials,
+                                       undisturbed, history, std::move(title)}));
       },
       py::arg("shown"), py::arg("seconds"), py::arg("engine"), py::arg("level"), py::arg("noise"),
       py::arg("trials"), py::arg("undisturbed"), py::arg("history"), py::arg("title"),
       "The page of amble.view(), as text.");
+  module.def("_save_page", save_page, py::arg("path"), py::arg("html"),
+             "Page.save(): writes the text of a page; returns the absolute path, a str.");
 }
 
 }  // namespace amble::python

@@ -16,7 +16,7 @@ namespace amble::python {
 class CallLock {
  public:
   /// Nobody who has it waits for the interpreter. Throws std::runtime_error, Python's RuntimeError.
-  std::unique_lock<std::mutex> hold() {
+  std::unique_lock<std::timed_mutex> hold() {
     if (process_ == ::getpid()) return std::unique_lock(mutex_);
     constexpr int attempts = 200;  // a second: other threads of this process may be first
     for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -31,9 +31,17 @@ class CallLock {
         "this process was forked while another thread used the object: make a new one here, or start "
         "processes by multiprocessing.get_context(\"spawn\")");
   }
+  /// The same for what may be held long: holds nothing if `stop` was set meanwhile.
+  std::unique_lock<std::timed_mutex> hold(const std::atomic<bool>& stop) {
+    if (process_ != ::getpid()) return hold();
+    std::unique_lock lock(mutex_, std::defer_lock);
+    while (!stop && !lock.try_lock_for(std::chrono::milliseconds(20))) {
+    }
+    return lock;
+  }
 
  private:
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::atomic<pid_t> process_{::getpid()};
 };
 

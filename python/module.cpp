@@ -13,12 +13,13 @@ namespace {
 PyObject* error_type = nullptr;
 
 void raise(const char* what, ExitCode code) {
-  py::object value = py::reinterpret_borrow<py::object>(error_type)(what);
+  py::object value = py::reinterpret_borrow<py::object>(error_type)(text_of(what));
   value.attr("exit_code") = static_cast<int>(code);
   PyErr_SetObject(error_type, value.ptr());
 }
 
-/// What ends the program with a line becomes amble.Error with the same words.
+/// What ends the program with a line becomes amble.Error with the same words. pybind11 would decode those of
+/// ValueErrors strictly, and they name paths.
 void translate(std::exception_ptr exception) {
   try {
     if (exception) std::rethrow_exception(exception);
@@ -26,6 +27,8 @@ void translate(std::exception_ptr exception) {
     raise(error.what(), error.code());
   } catch (const std::system_error& error) {  // of files: permissions, a full device
     raise(error.what(), ExitCode::io);
+  } catch (const py::value_error& error) {
+    PyErr_SetObject(PyExc_ValueError, text_of(error.what()).ptr());
   }
 }
 
@@ -38,7 +41,9 @@ PYBIND11_MODULE(_amble, module) {
                                          nullptr, nullptr);
   if (error_type == nullptr) throw py::error_already_set();
   module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
-  py::register_exception_translator(translate);
+  py::register_local_exception_translator(translate);
+
+  py::module_::import("atexit").attr("register")(py::cpp_function(end_calls));
 
   const auto build = experiment::build_info();
   module.attr("__version__") = build.version;

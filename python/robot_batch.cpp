@@ -7,6 +7,8 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/damage/stages.hpp"
+#include "amble/physics/damaged_engine.hpp"
 
 namespace amble::python {
 
@@ -82,19 +84,34 @@ Observations::Observations(int robots_in, int joints_in, int legs_in, bool force
       torque_nm(forces ? to_index(robots) * to_index(joints) : 0),
       load_n(forces ? to_index(robots) * to_index(legs) : 0) {}
 
-RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
-                       const physics::EngineSettings& settings, int count, int threads)
-    : robot_(std::move(robot)),
-      settings_(settings),
-      observations_(std::make_shared<Observations>(count, static_cast<int>(robot_.joints.size()),
-                                                   static_cast<int>(robot_.legs.size()),
-                                                   settings.torques && settings.loads)),
+namespace {
+
+std::vector<trial::NumbTouch> numb_touches(const RobotBatch::Kind& kind) {
+  std::vector<trial::NumbTouch> all;
+  for (const damage::NumbFoot& foot : damage::numb_feet(kind.robot, kind.damage))
+    all.push_back({foot.leg, damage::first_step(foot.from_s, kind.settings.timestep_s)});
+  return all;
+}
+
+}  // namespace
+
+RobotBatch::RobotBatch(Kind kind, int count, int threads, const std::atomic<bool>& stop)
+    : kind_(std::move(kind)),
+      numb_(numb_touches(kind_)),
+      observations_(std::make_shared<Observations>(count, static_cast<int>(kind_.robot.joints.size()),
+                                                   static_cast<int>(kind_.robot.legs.size()),
+                                                   kind_.settings.torques && kind_.settings.loads)),
       // A caller that takes a share itself may be another thread at the next call.
-      team_(std::make_unique<Team>(threads, !physics::engine_traits(engine).keeps_to_a_thread)) {
-  for (int first = 0; first < count;) {
-    Group group{.engine = physics::make_engine(engine, robot_, settings_), .targets_rad = {}, .first = first};
+      team_(std::make_unique<Team>(threads, !physics::engine_traits(kind_.engine).keeps_to_a_thread)) {
+  for (int first = 0; first < count && !stop;) {
+    Group group{
+        .engine = physics::make_damaged_engine(kind_.engine, kind_.robot, kind_.damage, kind_.settings),
+        .targets_rad = {},
+        .steps = {},
+        .first = first};
     group.size = std::min(group.engine->lanes(), count - first);
     group.targets_rad = LaneArray(observations_->joints, group.engine->lanes());
+    group.steps.assign(to_index(group.size), 0);
     first += group.size;
     groups_.push_back(std::move(group));
   }
@@ -123,9 +140,11 @@ void RobotBatch::place(Group& group, std::span<const std::uint8_t> mask) {
     const std::size_t robot = to_index(group.first + lane);
     if (!mask.empty() && mask[robot] == 0) continue;
     group.engine->place(lane);
+    group.steps[to_index(lane)] = 0;
     observations_->diverged[robot] = 0;
     observe(group, lane);
   }
+  numb(group);
 }
 
 bool RobotBatch::step(std::span<const float> targets_rad) {
@@ -145,6 +164,12 @@ void RobotBatch::step(Group& group, const float* targets_rad) {
     for (int lane = 0; lane < group.size; ++lane) row[lane] = targets_rad[lane * joints + joint];
   }
   group.engine->step(group.targets_rad);
+  for (std::int64_t& steps : group.steps) ++steps;
+  read(group);
+  numb(group);
+}
+
+void RobotBatch::read(Group& group) {
   std::uint8_t* const diverged = observations_->diverged.data() + group.first;
   bool all_healthy = true;
   for (int lane = 0; lane < group.size; ++lane)
@@ -181,6 +206,13 @@ void RobotBatch::observe(const Group& group) {
   for (int lane = 0; lane < group.size; ++lane) observe_body(group, lane);
 }
 
+void RobotBatch::numb(const Group& group) {
+  for (const auto& [leg, first_step] : numb_)
+    for (int lane = 0; lane < group.size; ++lane)
+      if (group.steps[to_index(lane)] + 1 >= first_step)
+        observations_->row(group.first + lane)[observations_->touch_column() + leg] = 0.0f;
+}
+
 void RobotBatch::observe_body(const Group& group, int lane) {
   float* const to = observations_->row(group.first + lane) + observations_->com_column();
   const Vec3 com_m = group.engine->com_m(lane);
@@ -188,8 +220,8 @@ void RobotBatch::observe_body(const Group& group, int lane) {
   to[1] = static_cast<float>(com_m.y);
   to[2] = static_cast<float>(com_m.z);
   // As Runner::advance, src/trial/trial.cpp, on the plane z = 0: no engine here is given another ground.
-  observations_->fallen[to_index(group.first + lane)] = robot_.fall_rule().met(
-      group.engine->root_com_m(lane).z, robot_.upright(group.engine->root_pose(lane).rotation));
+  observations_->fallen[to_index(group.first + lane)] = kind_.robot.fall_rule().met(
+      group.engine->root_com_m(lane).z, kind_.robot.upright(group.engine->root_pose(lane).rotation));
   if (!observations_->torque_nm.empty()) observe_forces(group, lane);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -13,8 +14,10 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/process.hpp"
+#include "amble/damage/settings.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/trial/disturbances.hpp"
 
 namespace amble::python {
 
@@ -70,18 +73,24 @@ struct Observations {
 /// advance together on several threads. Not one bit depends on their number.
 class RobotBatch {
  public:
-  /// All robots are placed. `count` ≥ 1, `threads` ≥ 1. Throws UserError for an unknown engine or a robot
-  /// that it cannot simulate.
-  RobotBatch(robot::RobotSpec robot, const std::string& engine, const physics::EngineSettings& settings,
-             int count, int threads);
+  /// What there are copies of.
+  struct Kind {
+    robot::RobotSpec robot;  ///< intact
+    damage::Settings damage;
+    std::string engine;
+    physics::EngineSettings settings;
+  };
+  /// All robots are placed; fewer than `count` are made if `stop` was set meanwhile. `count` ≥ 1, `threads`
+  /// ≥ 1. Throws UserError for an unknown engine or a robot that it cannot simulate.
+  RobotBatch(Kind kind, int count, int threads, const std::atomic<bool>& stop);
   ~RobotBatch();
 
   /// False in a process that was forked from the one that made it: there it can only be destroyed.
   bool works_here() const { return made_in_.is_this(); }
-  const robot::RobotSpec& robot() const { return robot_; }
+  const robot::RobotSpec& robot() const { return kind_.robot; }
   int count() const { return observations_->robots; }
   int threads() const { return team_->shares(); }
-  double timestep_s() const { return settings_.timestep_s; }
+  double timestep_s() const { return kind_.settings.timestep_s; }
   const std::shared_ptr<Observations>& observations() const { return observations_; }
 
   /// Advances each robot by one timestep towards its targets, rad, robots × joints; does nothing and returns
@@ -96,20 +105,25 @@ class RobotBatch {
   struct Group {
     std::unique_ptr<physics::Engine> engine;
     LaneArray targets_rad;
-    int first = 0, size = 0;  ///< robots in its lanes
+    std::vector<std::int64_t> steps;  ///< by robot: since it was placed
+    int first = 0, size = 0;          ///< robots in its lanes
   };
 
   void each_group(const std::function<void(Group&)>& work);
   void place(Group& group, std::span<const std::uint8_t> mask);
   void step(Group& group, const float* targets_rad);
+  /// Observes after a step; retires who has diverged in it.
+  void read(Group& group);
   void observe(const Group& group, int lane);
   /// The same of all robots of a group.
   void observe(const Group& group);
   void observe_body(const Group& group, int lane);
+  /// Touches that are read as 0.
+  void numb(const Group& group);
   void observe_forces(const Group& group, int lane);
 
-  const robot::RobotSpec robot_;
-  const physics::EngineSettings settings_;
+  const Kind kind_;
+  const std::vector<trial::NumbTouch> numb_;
   std::shared_ptr<Observations> observations_;
   std::vector<Group> groups_;
   std::unique_ptr<Team> team_;

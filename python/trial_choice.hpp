@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <string>
 #include <utility>
 
@@ -14,8 +12,7 @@ namespace amble::python {
 /// ValueError for what contradicts itself.
 inline presentation::TrialChoice trial_choice(std::string level, const py::object& noise, int trials,
                                               bool undisturbed = false) {
-  if (trials < 0)
-    throw py::value_error(fmt::format("trials: {}: expected a whole number, at least 1", trials));
+  if (trials != 0) check_whole("trials", trials, 1, presentation::most_typical_trials);
   presentation::TrialChoice choice{.level = std::move(level), .trials = trials};
   if (!noise.is_none()) choice.noise = path_of(noise);
   if (choice.noise && !choice.level.empty())

@@ -1,7 +1,7 @@
 import html
 import pathlib
 
-from ._amble import _page
+from ._amble import _page, _save_page
 
 
 class Page:
@@ -11,10 +11,8 @@ class Page:
         self.html, self.height = text, height
 
     def save(self, path):
-        """Writes the page as a file for any browser; returns its pathlib.Path."""
-        path = pathlib.Path(path)
-        path.write_text(self.html, encoding="utf-8")
-        return path
+        """Writes the page as FILE.html for any browser; returns its pathlib.Path, absolute. Raises Error: replaces pages alone."""
+        return pathlib.Path(_save_page(path, self.html))
 
     def _repr_html_(self):
         # Its scripts run, apart from the notebook's.

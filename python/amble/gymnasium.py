@@ -5,6 +5,8 @@
     env = RobotsEnv("hexapod", num_envs=1024, commands={"most_speed_m_s": 0.4, "most_turn_rad_s": 0.5})
 """
 
+import numbers
+
 import gymnasium
 import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
@@ -23,15 +25,12 @@ class Commands:
     DEFAULTS = {"stretch_s": 5.0, "least_speed_m_s": 0.0, "most_speed_m_s": 0.4, "most_turn_rad_s": 0.5, "straight_share": 0.2,
                 "stop_share": 0.1, "tracking_speed_m_s": 0.2, "tracking_turn_rad_s": 0.5}
 
+    RANGES = {"stretch_s": (1e-3, 1e6), "least_speed_m_s": (-100.0, 100.0), "most_speed_m_s": (-100.0, 100.0),
+              "most_turn_rad_s": (0.0, 100.0), "straight_share": (0.0, 1.0), "stop_share": (0.0, 1.0),
+              "tracking_speed_m_s": (1e-6, 1e3), "tracking_turn_rad_s": (1e-6, 1e3)}
+
     def __init__(self, settings, robots, random):
-        unknown = set(settings) - set(self.DEFAULTS)
-        if unknown:
-            raise ValueError(f"commands has {', '.join(sorted(unknown))}: expected {', '.join(self.DEFAULTS)}")
-        self._settings, self._robots, self.random = self.DEFAULTS | dict(settings), robots, random
-        if self._settings["least_speed_m_s"] > self._settings["most_speed_m_s"]:
-            raise ValueError("commands: least_speed_m_s is more than most_speed_m_s")
-        if not 0.0 <= self._settings["stop_share"] + self._settings["straight_share"] <= 1.0:
-            raise ValueError("commands: stop_share and straight_share: expected shares that are at most 1 together")
+        self._settings, self._robots, self.random = self._checked(settings, robots.timestep_s), robots, random
         self._second = round(1.0 / robots.timestep_s)
         self._stretch = max(1, round(self._settings["stretch_s"] / robots.timestep_s))
         count = len(robots)
@@ -39,6 +38,25 @@ class Commands:
         self._sum, self._begin_m, self._forward = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros((count, 2))
         self._yaw, self._start_yaw, self._turned = np.zeros(count), np.zeros(count), np.zeros(count)
         self.begin(np.ones(count, bool))
+
+    @classmethod
+    def _checked(cls, settings, timestep_s):
+        """All settings. ValueError where a config's [command] or [score.tracking] would be refused."""
+        unknown = set(settings) - set(cls.DEFAULTS)
+        if unknown:
+            raise ValueError(f"commands has {', '.join(sorted(unknown))}: expected {', '.join(cls.DEFAULTS)}")
+        for key, value in settings.items():
+            least, most = cls.RANGES[key]
+            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not least <= value <= most:
+                raise ValueError(f"commands: {key}: {value!r}: expected a number from {least:g} to {most:g}")
+        every = cls.DEFAULTS | dict(settings)
+        if every["least_speed_m_s"] > every["most_speed_m_s"]:
+            raise ValueError("commands: least_speed_m_s is more than most_speed_m_s")
+        if every["stop_share"] + every["straight_share"] > 1.0:
+            raise ValueError("commands: stop_share and straight_share: expected shares that are at most 1 together")
+        if every["stretch_s"] < timestep_s:
+            raise ValueError(f"commands: stretch_s: {every['stretch_s']!r}: expected at least one timestep, {timestep_s:g} s")
+        return every
 
     def begin(self, which):
         """These robots stand in the start pose."""
@@ -106,6 +124,8 @@ class RobotsEnv(VectorEnv):
     metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
     def __init__(self, robot, num_envs=1, engine="batch", *, max_ticks=1500, timestep_s=None, threads=None, commands=None):
+        if isinstance(max_ticks, bool) or not isinstance(max_ticks, numbers.Integral) or max_ticks < 1:
+            raise ValueError(f"max_ticks: {max_ticks!r}: expected a whole number, at least 1")
         self.robots = Robots(robot, num_envs, engine, timestep_s=timestep_s, threads=threads)
         self.num_envs, self.max_ticks = num_envs, max_ticks
         self.commands = None if commands is None else Commands(commands, self.robots, np.random.default_rng())
@@ -123,7 +143,8 @@ class RobotsEnv(VectorEnv):
         return sensed.copy() if self.commands is None else np.concatenate([sensed, self.commands.told], axis=1)
 
     def reset(self, *, seed=None, options=None):
-        """All robots into the start pose. The simulation has no randomness; seed is for the spaces and for commands."""
+        """All robots into the start pose. The simulation has no randomness; seed is for commands and np_random (spaces have
+        seed() of their own)."""
         super().reset(seed=seed)
         self.robots.reset()
         self._ticks[:], self._over[:] = 0, False

@@ -62,14 +62,8 @@ void print_best(const experiment::Run& run, int jobs) {
 
 /// What may make a run meaningless is better known before it has taken hours.
 void print_oddities(const experiment::Run& run) {
-  const auto& config = run.config();
-  const bool slopes = config.ground.slope_x != 0.0 || config.ground.slope_y != 0.0;
-  for (const auto& odd : experiment::odd_at_start(run.robot(), config.engine, config.trial.timestep_s))
-    if (!slopes || !odd.starts_with("gravity:")) print_message(fmt::format("note: {}\n", odd));
-  if (const auto weak = robot::weak_joints(run.robot()); !weak.empty())
-    print_message(fmt::format(
-        "note: motors too weak to hold the weight on half of the legs: {}; `amble robot` says more\n",
-        fmt::join(weak, ", ")));
+  for (const auto& odd : experiment::odd_for_run(run.robot(), run.config()))
+    print_message(fmt::format("note: {}\n", odd));
 }
 
 /// `named`: the folder as it was given. `server`: may be null.

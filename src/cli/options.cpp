@@ -10,8 +10,6 @@
 namespace amble::cli {
 namespace {
 
-constexpr int most_trials = 100000;
-
 /// "own|control|micro|100-micro|milli".
 std::string level_values() {
   std::string text(record::own_noise);
@@ -48,7 +46,7 @@ void add_disturbance(CLI::App& command, presentation::TrialChoice& choice, const
   auto* const trials = command
                            .add_option("--trials", choice.trials,
                                        fmt::format("Number of these trials (default: {})", by_default))
-                           ->check(between(1, most_trials));
+                           ->check(between(1, presentation::most_typical_trials));
   command.add_flag("--undisturbed", choice.undisturbed, "The one trial without noise instead")
       ->excludes(level)
       ->excludes(noise)

@@ -8,6 +8,7 @@
 
 #include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
+#include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/robot_folder.hpp"
 #include "amble/io/file.hpp"
@@ -22,9 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 
 ExitCode init_robot(const fs::path& model, const fs::path& folder) {
-  const auto written = experiment::write_robot_folder(model, folder, preset_of_robots());
-  fmt::print("{}", written.text);
-  return written.ready ? ExitCode::ok : ExitCode::bad_input;
+  const auto written = experiment::write_robot_folder(model, folder, preset_of_robots(), stop_signal());
+  if (!written) fail(ExitCode::interrupted, "stopped before all of it was written");
+  fmt::print("{}", written->text);
+  return written->ready ? ExitCode::ok : ExitCode::bad_input;
 }
 
 }  // namespace

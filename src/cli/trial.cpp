@@ -124,8 +124,9 @@ void tell(const TrialOptions& options, experiment::Champion& champion) {
     fail(ExitCode::bad_input, "--steering: {} was told nothing in its evolution; expected --command as well",
          options.champion.string());
   if (options.steering) experiment::steer_by_hand(champion.problem, *options.steering, "--steering");
-  if (options.command && !champion.problem.architecture->extra_senses().commands())
-    print_message("--command: this champion senses no commands, and walks as it would without\n");
+  if (!options.command) return;
+  if (const auto unheard = experiment::unheard_commands(champion.problem))
+    print_message(fmt::format("--command: {}\n", *unheard));
 }
 
 /// What the champion typically does in trials like this one.

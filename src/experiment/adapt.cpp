@@ -12,6 +12,7 @@
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/text.hpp"
 #include "amble/neat/genome_io.hpp"
 
 namespace amble::experiment {
@@ -141,8 +142,14 @@ std::string adaptation_json(const Adaptation& adaptation, const Repertoire& repe
 
 damage::Settings damage_of(const std::string& spec) {
   std::error_code error;
-  const bool in_line = spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error);
-  return in_line ? damage::parse(spec) : load_config(spec, {}).damage;
+  if (std::filesystem::exists(spec, error)) return load_config(spec, {}).damage;
+  if (spec.find(':') == std::string::npos)
+    fail(
+        ExitCode::bad_input,
+        "damage \"{}\": no such file; expected damages such as missing:FL,weak:FR_knee=0.3, or the path of a "
+        "config with [damage]",
+        io::printable(spec));
+  return damage::parse(spec);
 }
 
 }  // namespace amble::experiment

@@ -167,6 +167,11 @@ std::vector<std::string> idle_parts(const Problem& problem) {
   return idle;
 }
 
+std::optional<std::string> unheard_commands(const Problem& problem) {
+  if (problem.architecture->extra_senses().commands()) return std::nullopt;
+  return "this champion senses no commands, and walks as it would without";
+}
+
 std::optional<std::string> untold_commands(const Problem& problem) {
   double begins_s = 0.0;
   for (const trial::CommandStretch& stretch : problem.command.stretches) {

@@ -258,8 +258,9 @@ std::string start_text(const robot::RobotSpec& robot) {
   return text;
 }
 
-RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
-                               const std::optional<fs::path>& preset) {
+std::optional<RobotFolder> write_robot_folder(const fs::path& model, fs::path folder,
+                                              const std::optional<fs::path>& preset,
+                                              const std::atomic<bool>& stop) {
   if (model.extension() == ".toml" || model.extension() == ".json")
     fail(ExitCode::bad_input, "{} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
          model.string());
@@ -274,7 +275,9 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
            config);
   const fs::path steer_file = folder / "steer.toml";
   refuse_to_replace_any({written.robot_file, written.config_file, steer_file});
+  if (stop) return std::nullopt;
   NewRobot made = make_new_robot(file, path_from(folder, model), written.robot_file);
+  if (stop) return std::nullopt;
   std::optional<robot::RobotSpec>& robot = made.robot;
   fs::create_directories(folder);
   // The file ends with [contact].
@@ -287,6 +290,7 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
     written.steer_file = steer_file;
     io::write_file(steer_file, steer_text(made.guess.name, *sizes, folder, preset));
   }
+  if (stop) return std::nullopt;
   written.settled = made.guess.settled;
   written.asked = made.guess.asked;
   written.warnings = made.guess.doubts;

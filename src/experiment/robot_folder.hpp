@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,9 +41,12 @@ struct RobotFolder {
 
 /// Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it, a config that extends
 /// `preset`, and one that extends that by commands (steer.toml) (none: a path to be corrected) into `folder`
-/// (empty: one of the model's name, below the current folder). Throws UserError for a model that cannot be
-/// read and for files that are there already.
-RobotFolder write_robot_folder(const std::filesystem::path& model, std::filesystem::path folder,
-                               const std::optional<std::filesystem::path>& preset);
+/// (empty: one of the model's name, below the current folder). Nothing if `stop` was set meanwhile; then
+/// files may have been written. Throws UserError for a model that cannot be read and for files that are there
+/// already.
+std::optional<RobotFolder> write_robot_folder(const std::filesystem::path& model,
+                                              std::filesystem::path folder,
+                                              const std::optional<std::filesystem::path>& preset,
+                                              const std::atomic<bool>& stop);
 
 }  // namespace amble::experiment

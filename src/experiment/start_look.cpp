@@ -11,8 +11,11 @@
 #include <set>
 
 #include "amble/core/index.hpp"
+#include "amble/experiment/plan/config.hpp"
+#include "amble/io/text.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/check.hpp"
+#include "amble/robot/doubts.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -107,6 +110,33 @@ void look_at_mass(const RobotSpec& robot, std::vector<std::string>& odd) {
         "mass: {:.3g} kg on {:.3g} m is more than a cube of iron: are its masses in grams? amble takes "
         "metres and kilograms",
         mass_kg, wide_m));
+}
+
+/// From a body's centre of mass to the nearest ball around one of its shapes, or to its frame if it has none.
+double far_from_shapes_m(const RobotSpec& robot, int body) {
+  const robot::Body& own = robot.bodies[to_index(body)];
+  double far_m = std::numeric_limits<double>::infinity();
+  for (const robot::Geom& geom : robot.geoms) {
+    if (geom.body != body) continue;
+    double radius_m = norm(geom.size_m);
+    for (const Vec3 corner : geom.vertices_m) radius_m = std::max(radius_m, norm(corner));
+    far_m = std::min(far_m, std::max(0.0, norm(own.com_m - geom.position_m) - radius_m));
+  }
+  return std::isfinite(far_m) ? far_m : norm(own.com_m);
+}
+
+/// Centres of mass in another unit than lengths: no link's is farther from it than its robot is long.
+void look_at_centres_of_mass(const RobotSpec& robot, std::vector<std::string>& odd) {
+  const double wide_m = width_m(robot);
+  std::vector<std::string> names;
+  for (int b = 0; b < static_cast<int>(robot.bodies.size()); ++b)
+    if (const double far_m = far_from_shapes_m(robot, b); far_m > wide_m)
+      names.push_back(fmt::format("{} ({:.3g} m)", robot.bodies[to_index(b)].name, far_m));
+  if (!names.empty())
+    odd.push_back(fmt::format(
+        "mass: centres of mass that are farther from their link than the robot is long, {:.3g} m: "
+        "{}: are they in millimetres? amble takes metres (URDF: <origin> of <inertial>)",
+        wide_m, io::first_few(names)));
 }
 
 std::string axis_of(Vec3 v) {
@@ -223,12 +253,15 @@ class Hold {
     const Vec3 up_now = rotate(engine_->root_pose(0).rotation, Vec3{0.0, 0.0, 1.0}),
                up_then = rotate(start_.rotation, Vec3{0.0, 0.0, 1.0});
     if (dot(up_now, up_then) < tipped_cosine) odd_.push_back("held in its start pose it tips over");
-    if (highest_com_m_ > (1.0 + thrown_share) * start_com_m_)
+    // Shares of a height below the ground say nothing.
+    const bool above_ground = start_com_m_ > 0.0;
+    if (above_ground && highest_com_m_ > (1.0 + thrown_share) * start_com_m_)
       odd_.push_back(
           fmt::format("held in its start pose it is thrown up by {:.3g} m: it starts in the ground, or in "
                       "itself",
                       highest_com_m_ - start_com_m_));
-    if (const double sunk_m = start_com_m_ - engine_->com_m(0).z; sunk_m > sunk_share * start_com_m_)
+    if (const double sunk_m = start_com_m_ - engine_->com_m(0).z;
+        above_ground && sunk_m > sunk_share * start_com_m_)
       odd_.push_back(
           fmt::format("held in its start pose it sinks by {:.3g} m of {:.3g}: its servos are weak for its "
                       "weight, or its start is in the air",
@@ -285,8 +318,20 @@ std::vector<std::string> odd_at_start(const RobotSpec& robot, const std::string&
   else
     look_at_gravity(robot, odd);
   look_at_mass(robot, odd);
+  look_at_centres_of_mass(robot, odd);
   const std::vector<std::string> pose = odd_pose(robot, engine, timestep_s);
   odd.insert(odd.end(), pose.begin(), pose.end());
+  return odd;
+}
+
+std::vector<std::string> odd_for_run(const RobotSpec& robot, const Config& config) {
+  auto odd = odd_at_start(robot, config.engine, config.trial.timestep_s);
+  if (config.ground.slope_x != 0.0 || config.ground.slope_y != 0.0)
+    std::erase_if(odd, [](const std::string& line) { return line.starts_with("gravity:"); });
+  if (const auto weak = robot::weak_joints(robot); !weak.empty())
+    odd.push_back(
+        fmt::format("motors too weak to hold the weight on half of the legs: {}; `amble robot` says more",
+                    fmt::join(weak, ", ")));
   return odd;
 }
 

@@ -8,6 +8,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/physics/engine.hpp"
@@ -28,20 +29,23 @@ TypicalLevel level_of_config(const std::filesystem::path& config) {
 
 TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int trials, TypicalLevel level,
                              int jobs)
-    : level_(std::move(level)) {
+    : level_(std::move(level)), seed_(seed), trials_(to_index(trials)) {
   AMBLE_CHECK(trials >= 1, "what is typical needs a trial");
   auto disturbed = std::make_unique<Problem>(problem);
   disturbed->noise = level_.noise;
   problem_ = std::move(disturbed);
-  trial::ScenarioKey key = episode_key(EpisodeSet::typical, seed);
-  ground_ = problem_->make_ground(ground_of(key));
-  for (int i = 0; i < trials; ++i, ++key.episode)
-    scenarios_.push_back(problem_->scenario(key, ground_.get()));
+  ground_ = problem_->make_ground(ground_of(episode_key(EpisodeSet::typical, seed)));
   evaluator_ = std::make_unique<Evaluator>(*problem_, record::PathSampling(), jobs);
 }
 
 std::optional<std::vector<TrialResult>> TypicalTrials::run(const neat::Genome& genome,
                                                            const std::atomic<bool>& stop) {
+  trial::ScenarioKey key = episode_key(EpisodeSet::typical, seed_);
+  for (key.episode += static_cast<std::uint32_t>(scenarios_.size()); scenarios_.size() < trials_;
+       ++key.episode) {
+    if (stop) return std::nullopt;
+    scenarios_.push_back(problem_->scenario(key, ground_.get()));
+  }
   const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios_, ground_);
   if (!result) return std::nullopt;
   std::vector<TrialResult> trials;

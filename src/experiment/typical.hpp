@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -45,7 +46,9 @@ class TypicalTrials {
   TypicalLevel level_;
   std::unique_ptr<const Problem> problem_;
   std::shared_ptr<const ground::Ground> ground_;
-  std::vector<trial::Scenario> scenarios_;
+  std::int64_t seed_;
+  std::size_t trials_;
+  std::vector<trial::Scenario> scenarios_;  ///< drawn by the first run()
   std::unique_ptr<Evaluator> evaluator_;
 };
 

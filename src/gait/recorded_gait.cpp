@@ -1,4 +1,5 @@
 #include "amble/gait/recorded_gait.hpp"
+#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/robot/json.hpp"
 
@@ -91,7 +92,11 @@ Report recorded_gait(record::RecordingReader& reader, const std::string& what, c
                         .timer = seams->timer.of(frame),
                         .trigger = seams->trigger.of(frame)});
   }
-  const bool whole = static_cast<double>(reader.frames_read()) <= limit;
+  const auto frames = static_cast<double>(reader.frames_read());
+  if (seconds && frames < limit && reader.outcome() == record::Outcome::completed)
+    fail(ExitCode::bad_input, "{}: seconds = {}: it is {:g} s long; expected at most that", what, *seconds,
+         frames * frame_s);
+  const bool whole = frames <= limit;
   Report report = meter.finish(whole ? reader.outcome() : record::Outcome::completed);
   if (seams) report.seam = seams->meter.report();
   return report;

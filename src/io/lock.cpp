@@ -17,22 +17,24 @@
 namespace amble::io {
 namespace {
 
-/// " (pid 123)", or nothing while the holder has not yet written its number.
+/// "this process", "another process (pid 123)", or without the number while the holder has not yet written
+/// it.
 std::string holder(int fd) {
   std::array<char, 32> text{};
   const ssize_t size = ::pread(fd, text.data(), text.size(), 0);
   long pid = 0;
   if (size > 0) std::from_chars(text.data(), text.data() + size, pid);
-  return pid > 0 ? fmt::format(" (pid {})", pid) : std::string();
+  if (pid == ::getpid()) return "this process";
+  return pid > 0 ? fmt::format("another process (pid {})", pid) : "another process";
 }
 
 /// Locks an open file, which is closed where that fails. `what` is named in the message.
 void lock_or_fail(int fd, const std::filesystem::path& what, bool has_holder) {
   if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return;
   const int error = errno;
-  const std::string who = has_holder ? holder(fd) : std::string();
+  const std::string who = has_holder ? holder(fd) : "another process";
   ::close(fd);
-  if (error == EWOULDBLOCK) fail(ExitCode::locked, "{} is in use by another process{}", what.string(), who);
+  if (error == EWOULDBLOCK) fail(ExitCode::locked, "{} is in use by {}", what.string(), who);
   fail(ExitCode::io, "cannot lock {}: {}", what.string(), std::generic_category().message(error));
 }
 

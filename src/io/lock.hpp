@@ -5,7 +5,8 @@
 namespace amble::io {
 
 /// Locks a folder for one process (flock on FOLDER/.lock; released by the system if the process dies). Throws
-/// UserError(ExitCode::locked) naming the folder and the holder's process id if another process holds it.
+/// UserError(ExitCode::locked) naming the folder and the holder, another process by its id or this one, if it
+/// is held.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

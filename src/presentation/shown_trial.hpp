@@ -10,6 +10,9 @@
 
 namespace amble::presentation {
 
+/// TrialChoice::trials at most.
+inline constexpr int most_typical_trials = 100000;
+
 /// Which trial of a champion is measured or shown.
 struct TrialChoice {
   std::string level;                                ///< as experiment::typical_level() takes it

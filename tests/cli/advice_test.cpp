@@ -104,7 +104,7 @@ TEST_F(Advice, AnExportMakesItsFolder) {
   expect_refusal({"export", run_, "--format", "c", "-o", scratch_ / "none/x.cc"}, ExitCode::bad_input,
                  "expected -o FILE.c");
   expect_refusal({"export", run_, "--format", "c", "-o", run_ + "/config.toml/x.c"}, ExitCode::io,
-                 "cannot make folder");
+                 "/config.toml/x.c: Not a directory");
 }
 
 TEST_F(Advice, AFolderOfAnotherKindIsNamedWithTheCommandForIt) {

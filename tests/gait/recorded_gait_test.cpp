@@ -9,6 +9,7 @@
 #include "amble/gait/report_text.hpp"
 #include "amble/record/recording.hpp"
 #include "tests/gait/synthetic_gait.hpp"
+#include "tests/io/expect_error.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::gait {
@@ -88,6 +89,13 @@ TEST_F(RecordedGait, CanBeCutToItsFirstSeconds) {
   EXPECT_EQ(report.outcome, record::Outcome::completed);
   EXPECT_NEAR(report.distance_m, 2.4, 1e-5);
   EXPECT_EQ(recorded_gait(path_, {}, 100.0).outcome, record::Outcome::fell);
+}
+
+TEST_F(RecordedGait, IsNotOfMoreSecondsThanACompletedTrialHas) {
+  write(true, record::Outcome::completed);
+  EXPECT_DOUBLE_EQ(recorded_gait(path_, {}, 12.0).seconds, 12.0);
+  EXPECT_EQ(test::error_of(ExitCode::bad_input, [&] { recorded_gait(path_, {}, 100.0); }),
+            path_.string() + ": seconds = 100: it is 12 s long; expected at most that");
 }
 
 TEST_F(RecordedGait, EndsBeforeAFrameThatIsNotFinite) {

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 
 import amble
@@ -22,6 +23,14 @@ def program(*arguments):
 
 def assignments(overrides):
     return [part for key, value in overrides.items() for part in ("--set", f"{key}={value}")]
+
+
+@pytest.fixture
+def ctrl_c():
+    """Ctrl-C as in the foreground: a shell's background job ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")

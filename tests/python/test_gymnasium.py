@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import amble
-from conftest import ROBOT
+from conftest import CONFIG, ROBOT
 
 STEERED = str(Path(__file__).parents[2] / "robots/hexapod/steered.json")
 
@@ -166,7 +166,24 @@ def test_forward_is_what_points_along_x_in_the_start_pose(adapter):
     assert abs(rewards(0.0) - 10.0) < 0.1 and abs(rewards(1.5) - rewards(0.0)) < 1e-6
 
 
-@pytest.mark.parametrize("commands", [{"least_speed_m_s": 1.0}, {"stop_share": 0.9, "straight_share": 0.2}])
+@pytest.mark.parametrize("commands", [
+    {"least_speed_m_s": 1.0}, {"stop_share": 0.9, "straight_share": 0.2}, {"stretch_s": -5}, {"stretch_s": 0.002},
+    {"stop_share": -0.5, "straight_share": 0.6}, {"most_turn_rad_s": -1.0}, {"tracking_speed_m_s": 0.0}, {"tracking_turn_rad_s": -1},
+    {"most_speed_m_s": float("nan")}, {"most_speed_m_s": "0.4"}, {"stop_share": True}])
 def test_commands_that_cannot_be_are_refused(adapter, commands):
     with pytest.raises(ValueError, match="commands: "):
         adapter.RobotsEnv(ROBOT, 1, commands=commands)
+
+
+def test_ranges_of_commands_are_those_of_a_config(adapter):
+    names = {"tracking_speed_m_s": "score.tracking.speed_m_s", "tracking_turn_rad_s": "score.tracking.turn_rad_s"}
+    for key, (least, most) in adapter.Commands.RANGES.items():
+        with pytest.raises(amble.Error) as refused:
+            amble.load_config(CONFIG, {names.get(key, f"command.{key}"): 2.0 * most})
+        assert [float(number) for number in re.search(r"from (\S+) to (\S+)$", str(refused.value)).groups()] == [least, most]
+
+
+@pytest.mark.parametrize("ticks", [0, -1, 1.5, True])
+def test_an_episode_has_a_tick(adapter, ticks):
+    with pytest.raises(ValueError, match="max_ticks: .*expected a whole number, at least 1"):
+        adapter.RobotsEnv(ROBOT, 1, max_ticks=ticks)

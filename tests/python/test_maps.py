@@ -75,6 +75,12 @@ def test_a_damaged_robot_finds_a_gait_as_on_the_command_line(filled, tmp_path):
     assert (tmp_path / "found.html").read_text().startswith("<!DOCTYPE html>")
     with pytest.raises(amble.Error):
         amble.Map(filled).adapt("missing:XX")
+    for damage in ("", "none.toml"):
+        with pytest.raises(amble.Error, match=f'damage "{damage}": no such file; expected damages such as missing:FL'):
+            amble.Map(filled).adapt(damage)
+    for wrong in ({"page": tmp_path / "found.json"}, {"episodes": 101}, {"test_trials": 100001}):
+        with pytest.raises(ValueError, match="expected a"):
+            amble.Map(filled).adapt("missing:FL", **wrong)
 
 
 def test_a_map_goes_on_meaning_what_was_read(filled, tmp_path):
@@ -110,3 +116,12 @@ def test_compare_refuses_what_is_not_there(run):
         amble.compare([1])
     with pytest.raises(ValueError, match="trials"):
         amble.compare([run], trials=-1)
+    with pytest.raises(TypeError, match="champions: expected a list of them, found str"):
+        amble.compare(run.folder)
+
+
+@pytest.mark.parametrize("both", [{"level": "milli", "noise": "windy.toml"}, {"level": "milli", "undisturbed": True},
+                                  {"trials": 3, "undisturbed": True}])
+def test_compare_refuses_what_contradicts_itself(run, both):
+    with pytest.raises(ValueError, match="expected"):
+        amble.compare([run], **both)

@@ -9,7 +9,7 @@ import warnings
 import amble
 import pytest
 
-from conftest import CONFIG, SOURCE
+from conftest import CONFIG, SOURCE, assignments, program
 
 TINY = {"engine": "batch", "population.size": 4, "trial.duration_s": 1.0, "generations": 1}
 
@@ -39,6 +39,34 @@ def test_a_sound_robot_gives_no_warning(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         amble.evolve(robot(tmp_path, "0 0 -9.81"), out=tmp_path / "run")
+
+
+def said_to_a_user(call):
+    """The messages of UserWarnings."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        call()
+    return [str(warning.message) for warning in said]
+
+
+def test_a_config_that_slopes_is_not_told_that_gravity_is_tilted(tmp_path):
+    config = amble.load_config(CONFIG, {**TINY, "ground.slope_x": 0.1})
+    assert said_to_a_user(lambda: amble.evolve(config, out=tmp_path / "run")) == []
+
+
+def test_motors_too_weak_for_the_robot_are_named(tmp_path):
+    said = said_to_a_user(lambda: amble.evolve(robot(tmp_path, "0 0 -60"), out=tmp_path / "run"))
+    assert any("motors too weak to hold the weight on half of the legs: " in line for line in said), said
+
+
+def test_settings_that_have_no_effect_are_named_as_by_the_command_line(tmp_path):
+    idle = {"controller.ctrnn.steps_per_tick": 3, "command.kind": "random"}
+    config = amble.load_config(CONFIG, {**TINY, **idle})
+    _, program_said = program("evolve", CONFIG, *assignments({**TINY, **idle}), "--out", tmp_path / "theirs")
+    said = [f"note: {line.replace('overrides: ', '--set ')}" for line in said_to_a_user(lambda: amble.Search(config))]
+    assert len(said) == 2 and "controller.ctrnn.steps_per_tick has no effect" in said[0] and "[command] is not heard" in said[1]
+    assert [line for line in program_said.splitlines() if line.startswith("note: ")] == said
+    assert said_to_a_user(lambda: amble.evolve(config, out=tmp_path / "ours")) == said_to_a_user(lambda: amble.Search(config))
 
 
 def test_a_run_without_a_trial_that_counts_warns_at_its_start_and_ends_in_an_error(tmp_path):

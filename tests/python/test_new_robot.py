@@ -35,8 +35,9 @@ def test_what_was_made_can_be_evolved_at_once(model, tmp_path):
 
 def test_the_folder_has_the_name_of_the_model_where_none_is_given(model, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert amble.new_robot("servo.urdf")["robot"] == "servo/servo.toml"
-    assert (tmp_path / "servo/evolve.toml").is_file()
+    made = amble.new_robot("servo.urdf")
+    for key, name in (("robot", "servo.toml"), ("config", "evolve.toml"), ("steer_config", "steer.toml")):
+        assert made[key] == str(tmp_path / "servo" / name) and (tmp_path / "servo" / name).is_file()
 
 
 def test_a_model_without_legs_says_what_is_missing(tmp_path):

@@ -6,7 +6,7 @@ import amble
 import numpy as np
 import pytest
 
-from conftest import ROBOT
+from conftest import CONFIG, ROBOT
 
 
 def swing(robots, tick, n=None):
@@ -71,6 +71,19 @@ def test_amble_s_own_robots_go_by_name():
     assert len(amble.Robots("hexapod").legs) == 6
     with pytest.raises(amble.Error, match="no robot 'heptapod': expected the path of a robot file, or one of biped, "):
         amble.Robots("heptapod")
+
+
+def test_a_folder_of_a_robot_s_name_does_not_hide_it(tmp_path, monkeypatch):
+    (tmp_path / "hexapod").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert len(amble.Robots("hexapod").legs) == 6
+
+
+def test_an_engine_that_cannot_damage_a_robot_refuses_a_config_that_does():
+    config = amble.load_config(CONFIG, {"damage.parts": [{"kind": "missing", "leg": "FL"}]})
+    assert amble.Robots(config).touch.tolist() == [[0.0, 1.0, 1.0, 1.0]]
+    with pytest.raises(amble.Error, match="mujoco-model simulates the robot's own model, which is whole"):
+        amble.Robots(config, engine="mujoco-model")
 
 
 def test_views_are_live_and_without_copies():

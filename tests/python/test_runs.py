@@ -1,3 +1,4 @@
+import enum
 import json
 import os
 import signal
@@ -63,14 +64,6 @@ def test_an_exception_of_the_callback_stops_the_run_which_can_be_resumed(config,
     assert without_clocks(resumed.generations()) == without_clocks(run.generations())
 
 
-@pytest.fixture
-def ctrl_c():
-    """Ctrl-C as in the foreground: a shell's background job ignores it."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 def test_ctrl_c_interrupts_a_long_run_within_a_second(ctrl_c, tmp_path):
     endless = amble.load_config(CONFIG, {**SMALL, "generations": 1000000, "trial.duration_s": 30.0})
     seen = []
@@ -115,6 +108,23 @@ def test_a_config_reads_like_a_dict(config):
         config["population.sise"]
 
 
+def test_another_config_keeps_a_seed_that_was_an_argument(config):
+    seeded = amble.Search(config, seed=7).config
+    assert [seeded.replace(change)["seed"] for change in ({"generations": 5}, {"seed": 3})] == [7, 3]
+
+
+def test_numbers_that_write_themselves_otherwise_are_numbers(config):
+    class Size(enum.IntEnum):
+        SMALL = 9
+
+    class Seconds(float):
+        def __repr__(self):
+            return "np.float64(1.5)"  # as numpy 2 writes its own
+
+    changed = config.replace({"population.size": Size.SMALL, "trial.duration_s": Seconds(1.5)})
+    assert (changed["population.size"], changed["trial.duration_s"]) == (9, 1.5)
+
+
 def test_champions_walk_again_as_they_did(run):
     champion = run.champion()
     facts = champion.facts
@@ -139,8 +149,9 @@ def test_what_a_champion_typically_does_is_the_median_of_disturbed_trials(run):
     for wrong in ({"level": "nano"}, {"level": "own"}):
         with pytest.raises(amble.Error):
             champion.typical(**wrong)
-    with pytest.raises(ValueError):
-        champion.typical(trials=-1)
+    for trials in (-1, 100001):
+        with pytest.raises(ValueError, match="trials: .*expected a whole number from 1 to 100000"):
+            champion.typical(trials=trials)
 
 
 def test_recordings_have_their_columns_as_views(recording):
@@ -161,6 +172,29 @@ def test_gait_is_that_of_the_command_line(recording, tmp_path):
     with open(tmp_path / "gait.json") as file:
         written = json.load(file)
     assert amble.gait(recording) == amble.gait(recording.path) == written
+
+
+def test_a_gait_of_more_seconds_than_were_recorded_is_refused_as_by_the_command_line(recording):
+    code, said = program("gait", recording.path, "--seconds", 100)
+    with pytest.raises(amble.Error, match="seconds = 100: it is 2 s long") as refused:
+        amble.gait(recording, seconds=100)
+    assert refused.value.exit_code == code and said == f"amble: {refused.value}\n"
+
+
+def test_a_champion_is_not_saved_among_those_of_a_run(run, tmp_path):
+    champion, before = run.champion(), os.listdir(os.path.join(run.folder, "champions"))
+    for name in (before[0], "mine.json", "../champions/mine.json"):
+        with pytest.raises(amble.Error, match="a run keeps its own champions there"):
+            champion.save(os.path.join(run.folder, "champions", name))
+    with pytest.raises(amble.Error, match="a run keeps its own champions there"):
+        champion.export(os.path.join(run.folder, "champions/00099.json"))
+    assert os.listdir(os.path.join(run.folder, "champions")) == before
+    assert run.champion().save(tmp_path / "champions/mine.json") == str(tmp_path / "champions/mine.json")
+
+
+def test_a_folder_that_this_process_evolves_into_is_not_said_to_be_anothers(config, tmp_path):
+    with pytest.raises(amble.Error, match="is in use by this process$"):
+        amble.evolve(config, 1, out=tmp_path / "run", on_generation=lambda line: amble.resume(tmp_path / "run"))
 
 
 def test_views_of_a_recording_outlive_it(recording):

@@ -103,10 +103,13 @@ def test_own_fitness_drives_the_search(config):
     assert search.metrics["mean_links"] > amble.Search(config, 3).metrics["mean_links"]
 
 
-def test_a_loop_over_robots_that_first_holds_for_a_step_gives_the_distances_of_trials():
+@pytest.mark.parametrize("damage", [[], [{"kind": "locked", "joint": "FL_knee", "angle_rad": -0.2}, {"kind": "numb", "leg": "FR"},
+                                         {"kind": "weak", "joint": "BL_knee", "share": 0.3, "from_s": 0.7},
+                                         {"kind": "numb", "leg": "BL", "from_s": 0.7}]])
+def test_a_loop_over_robots_that_first_holds_for_a_step_gives_the_distances_of_trials(damage):
     config = amble.load_config(amble.data_folder() / "configs/authors/supg-objective.toml", {
         "engine": "batch", "population.size": 16, "speciation.target_min": 1, "speciation.target_max": 3,
-        "trial.duration_s": 2.0})
+        "trial.duration_s": 2.0, "damage.parts": damage})
     search = amble.Search(config, seed=1)
     genomes = search.ask()
     distance_m, _ = amble.evaluate(search, genomes)
@@ -135,8 +138,36 @@ def test_genomes_survive_dicts_and_pickles(config):
         assert copy == genome and copy.digest == genome.digest and hash(copy) == hash(genome)
     broken = genome.to_dict()
     broken["links"][0]["to"] = 999
+    with pytest.raises(amble.Error, match="names node 999"):
+        amble.Genome(broken)
     with pytest.raises(amble.Error, match="genomes\\[0\\]"):
-        amble.evaluate(config, [amble.Genome(broken)])
+        amble.evaluate(config, amble.Search(NOVELTY.parent / "ctrnn-novelty.toml").ask()[:1])
+
+
+@pytest.mark.parametrize("change, why", [
+    (lambda d: {**d, "foo": 1}, "unknown key 'foo': expected nodes, links"),
+    (lambda d: {**d, "nodes": [{**d["nodes"][0], "foo": 1}, *d["nodes"][1:]]}, r"nodes\[0\]: unknown key 'foo'"),
+    (lambda d: {**d, "links": [{**d["links"][0], "foo": 1}, *d["links"][1:]]}, r"links\[0\]: unknown key 'foo'"),
+    (lambda d: {**d, "links": [*d["links"], d["links"][0]]}, "out of order"),
+    (lambda d: {**d, "links": [*d["links"], {**d["links"][0], "innovation": 10**6}]}, "a second time")])
+def test_a_genome_of_other_keys_or_with_a_link_twice_is_refused(config, change, why):
+    with pytest.raises(amble.Error, match=why):
+        amble.Genome(change(amble.Search(config).ask()[0].to_dict()))
+
+
+def test_a_champion_of_a_search_names_the_round_that_gave_it_or_is_refused(config):
+    search = amble.Search(config, 3)
+    first = search.ask()
+    search.tell([1.0] * 23 + [0.0])
+    search = pickle.loads(pickle.dumps(search))
+    origins = [(champion.facts["generation"], champion.facts["index"])
+               for champion in (search.champion(first[23]), search.champion(search.ask()[7]))]
+    assert origins == [(0, 23), (1, 7)]
+    stranger = first[0].to_dict()
+    stranger["links"][0]["weight"] = 0.125
+    for genome in (amble.Genome(stranger), amble.Search(config, 4).ask()[0]):
+        with pytest.raises(amble.Error, match="this search never gave it; expected one of ask()"):
+            search.champion(genome)
 
 
 def test_two_threads_share_a_search_and_a_problem(config):

@@ -14,6 +14,7 @@ def test_a_champion_does_what_the_command_line_says_it_does_when_told(tmp_path):
     assert list(amble.Recording(tmp_path / "a.rec")["com.x"]) == list(amble.Recording(tmp_path / "b.rec")["com.x"])
 
 
+@pytest.mark.filterwarnings("ignore:command. this champion senses no commands")
 def test_steering_by_hand_changes_the_walk_and_its_trials():
     champion = amble.Champion(STRAIGHT)
     free, steered = (champion.trial(2.0, command="0.1,0.3", steering=gains) for gains in (None, GAINS))
@@ -21,6 +22,15 @@ def test_steering_by_hand_changes_the_walk_and_its_trials():
     assert "tracking" not in champion.trial(2.0)
     free, steered = (champion.typical(1.0, trials=2, command="0.1,0.3", steering=gains) for gains in (None, GAINS))
     assert free["trials"] != steered["trials"]
+
+
+def test_commands_without_effect_are_said_to_have_none():
+    champion = amble.Champion(STRAIGHT)
+    for walk in (champion.trial, lambda *told, **more: champion.typical(*told, trials=1, **more)):
+        with pytest.warns(UserWarning, match="^command: this champion senses no commands, and walks as it would without$"):
+            walk(1.0, command="0.1,0")
+        with pytest.warns(UserWarning, match="^command: what begins after 3 s is never told, as the trial is 1 s long; for more: seconds$"):
+            walk(1.0, command="0.1,0,3; 0,0,1", steering=GAINS)
 
 
 def test_export_writes_the_steering_of_the_command_line(tmp_path):

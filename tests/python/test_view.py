@@ -1,4 +1,5 @@
 import html
+import os
 import re
 
 import amble
@@ -55,3 +56,16 @@ def test_a_page_shows_itself_in_a_notebook_and_is_saved(recording, tmp_path):
                          page._repr_html_())
     assert html.unescape(shown[1]) == page.html
     assert page.save(tmp_path / "walk.html").read_text(encoding="utf-8") == page.html
+
+
+def test_a_page_is_saved_over_pages_alone_and_says_where(recording, run, tmp_path, monkeypatch):
+    page = amble.view(recording)
+    monkeypatch.chdir(tmp_path)
+    assert page.save("new/walk.html") == page.save("new/walk.html") == tmp_path / "new/walk.html"
+    (tmp_path / "notes.html").write_text("mine")
+    with pytest.raises(amble.Error, match="is not a page"):
+        page.save("notes.html")
+    for name in (run.champion().path, "walk.txt", ""):
+        with pytest.raises(ValueError, match="expected a (name that ends in .html|file)"):
+            page.save(name)
+    assert sorted(os.listdir(tmp_path)) == ["new", "notes.html"] and (tmp_path / "notes.html").read_text() == "mine"
