@@ -23,9 +23,14 @@ const uint8_t robot_switch_pins[] = {22, 23, 24, 25};
 const uint8_t robot_switch_pins[] = {34, 35, 36, 39};
 #endif
 
-/* A tick 50 ms late; 0.1 s without an answer of sensors; a switch that has not changed for 5 s; 1 s off the ground. */
-const safety_limits robot_safety_limits = {50000, 100000 / WALKER_TICK_US, 5000000 / WALKER_TICK_US,
-                                           1000000 / WALKER_TICK_US};
+/* A tick 50 ms late, or ticks of a second 100 ms late in all; 0.1 s without an answer of sensors, or of what makes the
+ * pulses; a switch that has not changed for 5 s; 1 s off the ground. */
+const safety_limits robot_safety_limits = {.late_us = 50000,
+                                           .slow_us = 100000,
+                                           .silent_ticks = 100000 / WALKER_TICK_US,
+                                           .lost_ticks = 100000 / WALKER_TICK_US,
+                                           .stuck_ticks = 5000000 / WALKER_TICK_US,
+                                           .airborne_ticks = 1000000 / WALKER_TICK_US};
 
 /* A command, `go SPEED TURN`, holds for 1 s: whoever steers sends a line more often. 0: it holds until the next. */
 const uint16_t robot_command_ticks = 1000000 / WALKER_TICK_US;

@@ -4,6 +4,13 @@
  * pose to the first pose. */
 enum { stagger_ticks = 100000 / WALKER_TICK_US, rise_ticks = 2000000 / WALKER_TICK_US, slow_us_per_s = 500 };
 
+/* The button arms when it is let go after 0.3 to 3 s: not by a spike, nor by a wire that is pulled down for long, as by
+ * the circuit that flashes an ESP32. */
+enum { least_arm_ticks = 300000 / WALKER_TICK_US, most_arm_ticks = 3000000 / WALKER_TICK_US };
+
+/* As many characters as 115200 baud bring in a tick; from one answer to the next 0.1 s. */
+enum { most_characters = WALKER_TICK_US / 80, answer_ticks = 100000 / WALKER_TICK_US };
+
 #ifdef WALKER_FRACTION_BITS
 enum { bits = WALKER_FRACTION_BITS };
 #else
@@ -33,14 +40,22 @@ void robot_init(robot *r) {
   r->calibration.joint = -1;
   r->calibration.print = board_print;
   command_begin(&r->command);
-  r->arm_was_pressed = 1; /* a button that is held while power comes arms nothing */
-  r->line_length = r->line_is_long = 0;
+  r->arm_ticks = UINT16_MAX;
+  r->pulsed = 1;
+  r->quiet_ticks = r->stop_letters = r->line_stops = r->line_is_long = r->line_length = 0;
 }
 
 static void say(const char *before, const char *words) {
   board_print(before);
   board_print(words);
   board_print("\n");
+}
+
+/* To somebody who may send without a pause: what does not fit in is not said. */
+static void answer(robot *r, const char *before, const char *words) {
+  if (r->quiet_ticks > 0) return;
+  say(before, words);
+  r->quiet_ticks = answer_ticks + 1;
 }
 
 static void be_limp(robot *r) {
@@ -111,75 +126,119 @@ static void calibrate(robot *r) {
 }
 
 static void stop(robot *r, stop_reason reason) {
+  board_outputs(0);
   r->mode = ROBOT_STOPPED;
   be_limp(r);
+  r->safety.reason = reason;
   say("stopped: ", stop_words(reason));
 }
 
-static void arm(robot *r, const safety_inputs *in) {
-  if (r->mode != ROBOT_STOPPED) return;
+static int may_move(robot *r, const safety_inputs *in) {
   if (!safety_arm(&r->safety, in)) {
-    say("not armed: ", "the emergency stop is pressed");
-    return;
+    answer(r, "not armed: ", "the emergency stop is pressed");
+    return 0;
   }
+  if (board_outputs(1)) return 1;
+  r->safety.reason = STOP_LOST;
+  answer(r, "not armed: ", stop_words(STOP_LOST));
+  return 0;
+}
+
+static void arm(robot *r, const safety_inputs *in) {
+  if (r->mode != ROBOT_STOPPED || !may_move(r, in)) return;
   r->mode = ROBOT_RAMPS;
   r->ramp_ticks = 0;
   say("ramp", "");
 }
 
-static int same(const char *a, const char *b) {
-  while (*a && *a == *b) ++a, ++b;
-  return *a == *b;
+static int is(const char *line, const char *word) {
+  while (*word && *line == *word) ++line, ++word;
+  while (*line == ' ') ++line;
+  return *line == 0 && *word == 0;
 }
 
 static void go(robot *r) {
 #ifdef WALKER_OBEYS
   if (r->mode != ROBOT_WALKS)
-    say("not obeyed: ", "it does not walk");
+    answer(r, "not obeyed: ", "it does not walk");
   else if (!command_take(&r->command, r->line))
-    say("expected go SPEED TURN, m/s and rad/s, e.g. go 0.2 -0.35, not ", r->line);
+    answer(r, "expected go SPEED TURN, m/s and rad/s, e.g. go 0.2 -0.35, not ", r->line);
 #else
-  (void)r;
-  say("not obeyed: ", "this controller takes no commands");
+  answer(r, "not obeyed: ", "this controller takes no commands");
 #endif
 }
 
 static void obey(robot *r, const safety_inputs *in) {
-  if (same(r->line, "stop") ||
-      (r->mode == ROBOT_CALIBRATES && !calibrate_line(&r->calibration, r->line))) {
-    r->safety.reason = STOP_COMMAND;
-    if (r->mode != ROBOT_STOPPED) stop(r, STOP_COMMAND);
-  } else if (r->mode == ROBOT_CALIBRATES) {
-    return;
-  } else if (same(r->line, "arm")) {
+  if (r->mode == ROBOT_CALIBRATES) {
+    if (!calibrate_line(&r->calibration, r->line)) stop(r, STOP_COMMAND);
+  } else if (is(r->line, "arm")) {
     arm(r, in);
-  } else if (same(r->line, "calibrate") && r->mode == ROBOT_STOPPED && safety_arm(&r->safety, in)) {
+  } else if (is(r->line, "calibrate") && r->mode == ROBOT_STOPPED) {
+    if (!may_move(r, in)) return;
     r->mode = ROBOT_CALIBRATES;
     calibrate_begin(&r->calibration);
   } else if (command_begins(r->line)) {
     go(r);
-  } else if (r->line[0]) {
-    say("expected arm, stop, go SPEED TURN or, while stopped, calibrate, not ", r->line);
+  } else {
+    answer(r, "expected arm, stop, go SPEED TURN or, while stopped, calibrate, not ", r->line);
   }
 }
 
+/* `stop` stops as soon as its letters are there, large or small, whatever is before or behind them. */
+static void look_for_stop(robot *r, int character) {
+  static const char letters[] = "stop";
+  const int small = character >= 'A' && character <= 'Z' ? character - 'A' + 'a' : character;
+  r->stop_letters = (uint8_t)(small == letters[r->stop_letters] ? r->stop_letters + 1 : small == letters[0]);
+  if (letters[r->stop_letters]) return;
+  r->stop_letters = 0;
+  r->line_stops = 1;
+  if (r->mode != ROBOT_STOPPED) stop(r, STOP_COMMAND);
+}
+
+static void end_line(robot *r, const safety_inputs *in) {
+  r->line[r->line_length] = 0;
+  if (r->line_is_long && !r->line_stops)
+    answer(r, "too long, not obeyed: ", r->line);
+  else if (r->line_length > 0 && !r->line_stops)
+    obey(r, in);
+  r->line_length = r->line_is_long = r->line_stops = 0;
+}
+
+/* Not for longer than a tick has, however much is sent. What changes the mode, and what calibrates, is the last line of
+ * its tick, as it is answered in any case. */
 static void listen(robot *r, const safety_inputs *in) {
-  int character;
-  while ((character = board_get_character()) >= 0) {
-    if (character == '\n' || character == '\r') {
-      r->line[r->line_length] = 0;
-      r->line_length = 0;
-      if (r->line_is_long)
-        say("too long, not obeyed: ", r->line);
-      else
-        obey(r, in);
-      r->line_is_long = 0;
-    } else if (r->line_length + 1 < (int)sizeof r->line) {
+  const robot_mode mode = r->mode;
+  int left, character;
+  for (left = most_characters; left > 0 && (character = board_get_character()) >= 0; --left) {
+    const int ends = character == '\n' || character == '\r';
+    look_for_stop(r, character);
+    if (ends)
+      end_line(r, in);
+    else if (r->line_length + 1 < (int)sizeof r->line)
       r->line[r->line_length++] = (char)character;
-    } else {
+    else
       r->line_is_long = 1;
-    }
+    if (r->mode != mode || (ends && mode == ROBOT_CALIBRATES)) return;
   }
+}
+
+static void look_at_button(robot *r, const safety_inputs *in) {
+  const uint16_t ticks = r->arm_ticks;
+  const int pressed = board_arm_pressed();
+  if (!pressed)
+    r->arm_ticks = 0;
+  else if (ticks < most_arm_ticks)
+    ++r->arm_ticks;
+  else
+    r->arm_ticks = UINT16_MAX;
+  if (!pressed && ticks >= least_arm_ticks && ticks <= most_arm_ticks) arm(r, in);
+}
+
+static void send_pulses(robot *r) {
+  int joint;
+  r->pulsed = 1;
+  for (joint = 0; joint < WALKER_JOINTS && r->pulsed; ++joint) /* a bus that hangs is waited for once in a tick */
+    r->pulsed = board_pulse(r->servos[joint].pin, r->pulse_us[joint]) != 0;
 }
 
 static safety_inputs sense(robot *r, uint32_t now_us) {
@@ -192,7 +251,12 @@ static safety_inputs sense(robot *r, uint32_t now_us) {
 #endif
   in.stop = board_stop_pressed() != 0;
   in.timed = r->mode != ROBOT_CALIBRATES; /* its tables take long to print */
+  in.pulsed = r->pulsed;
   in.walks = r->mode == ROBOT_WALKS;
+  in.stands = 0;
+#ifdef WALKER_OBEYS
+  in.stands = r->command.speed_m_s == 0.0f && r->command.turn_rad_s == 0.0f;
+#endif
   in.tilted = 0;
 #if WALKER_READS_ATTITUDE
   in.tilted = !(r->sensors.roll_rad < 1.0f && r->sensors.roll_rad > -1.0f && r->sensors.pitch_rad < 1.0f &&
@@ -209,18 +273,16 @@ static safety_inputs sense(robot *r, uint32_t now_us) {
 
 void robot_tick(robot *r, uint32_t now_us) {
   const safety_inputs in = sense(r, now_us);
-  const uint8_t arm_is_pressed = board_arm_pressed() != 0;
   const stop_reason reason = safety_check(&r->safety, &robot_safety_limits, WALKER_TICK_US, &in);
-  int joint;
   if (reason != STOP_NONE && r->mode != ROBOT_STOPPED) stop(r, reason);
+  if (r->quiet_ticks > 0) --r->quiet_ticks;
   listen(r, &in);
-  if (arm_is_pressed && !r->arm_was_pressed) arm(r, &in);
-  r->arm_was_pressed = arm_is_pressed;
+  look_at_button(r, &in);
   if (r->mode == ROBOT_RAMPS)
     ramp(r);
   else if (r->mode == ROBOT_WALKS)
     walk(r);
   else if (r->mode == ROBOT_CALIBRATES)
     calibrate(r);
-  for (joint = 0; joint < WALKER_JOINTS; ++joint) board_pulse(r->servos[joint].pin, r->pulse_us[joint]);
+  send_pulses(r);
 }

@@ -85,6 +85,7 @@ void change_as_in(const std::filesystem::path& path, Change change) {
 
 /// `spec`: a config file, or damages in one line (damage::parse).
 void damage_as_in(const std::string& spec, experiment::Champion& champion) {
+  if (spec.empty()) fail(ExitCode::bad_input, "--damage: expected a config file, or KIND:NAME as missing:FL");
   std::error_code error;
   if (spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error))
     champion.problem.set_damage(damage::parse(spec));

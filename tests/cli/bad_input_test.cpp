@@ -283,6 +283,8 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
                  "expected --command as well");
   expect_refusal({"trial", champion, "--command", "nowhere.toml"}, ExitCode::bad_input,
                  "there is no file nowhere.toml");
+  expect_refusal({"trial", champion, "--damage", ""}, ExitCode::bad_input,
+                 "--damage: expected a config file");
   for (const std::string command : {"trial", "gait", "compare"})
     expect_refusal({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
   expect_refusal({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "examples/firmware/calibrate.c"
 #include "examples/firmware/commands.c"
@@ -55,8 +57,12 @@ TEST(FirmwareServos, AreNoFasterThanTheirSlewAndArrive) {
   EXPECT_EQ(servo_towards_us(&slow, 1500, 1000, tick_us), 1499);
 }
 
-constexpr safety_limits watched{
-    .late_us = 50000, .silent_ticks = 10, .stuck_ticks = 500, .airborne_ticks = 100};
+constexpr safety_limits watched{.late_us = 50000,
+                                .silent_ticks = 10,
+                                .stuck_ticks = 500,
+                                .airborne_ticks = 100,
+                                .lost_ticks = 10,
+                                .slow_us = 100000};
 
 /// A robot of four legs that walks: each call is a tick.
 struct Watched {
@@ -66,8 +72,10 @@ struct Watched {
       : in{.now_us = 0xffff0000u,
            .stop = 0,
            .answered = 1,
+           .pulsed = 1,
            .timed = 1,
            .walks = 1,
+           .stands = 0,
            .tilted = 0,
            .legs = 4,
            .touch = {1, 0, 0, 1}} {
@@ -115,6 +123,47 @@ TEST(FirmwareSafety, StopsAtATickThatIsTooLate) {
   EXPECT_EQ(calibrated.tick(), STOP_NONE);
 }
 
+TEST(FirmwareSafety, StopsAtTicksThatAreTooLateAllTogether) {
+  for (const auto& [late_us, ticks, reason] : {std::tuple{500, 100000, STOP_NONE},
+                                               {2000, 50, STOP_NONE},
+                                               {2000, 51, STOP_SLOW},
+                                               {49000, 3, STOP_SLOW}}) {
+    Watched robot;
+    for (int i = 0; i < ticks; ++i) {
+      robot.in.now_us += static_cast<std::uint32_t>(late_us);
+      robot.tick();
+    }
+    EXPECT_EQ(robot.state.reason, reason) << late_us << " " << ticks;
+  }
+  Watched once;  // and what is caught up
+  for (int second = 0; second < 100; ++second) {
+    once.in.now_us += 40000;
+    once.tick();
+    for (int caught_up = 0; caught_up < 4; ++caught_up) {
+      once.in.now_us -= tick_us;
+      once.tick();
+    }
+    EXPECT_EQ(once.tick(95), STOP_NONE) << second;
+  }
+  Watched calibrated;
+  calibrated.in.timed = 0;
+  for (int i = 0; i < 100; ++i) {
+    calibrated.in.now_us += 90000;
+    EXPECT_EQ(calibrated.tick(), STOP_NONE);
+  }
+}
+
+TEST(FirmwareSafety, StopsWhenPulsesDoNotGetThereInTooManyTicksInARow) {
+  Watched robot;
+  robot.in.pulsed = 0;
+  EXPECT_EQ(robot.tick(9), STOP_NONE);
+  robot.in.pulsed = 1;
+  EXPECT_EQ(robot.tick(), STOP_NONE);
+  robot.in.pulsed = 0;
+  EXPECT_EQ(robot.tick(9), STOP_NONE);
+  EXPECT_EQ(robot.tick(), STOP_LOST);
+}
+
 TEST(FirmwareSafety, StopsWhenSensorsAreSilentForTooManyTicksInARow) {
   Watched robot;
   robot.in.answered = 0;
@@ -136,14 +185,39 @@ TEST(FirmwareSafety, StopsWhenASwitchIsStuckButOnlyWhileWalking) {
   EXPECT_EQ(standing.tick(5000, false), STOP_NONE);
 }
 
+TEST(FirmwareSafety, LeavesFeetAloneWhichAreToldToStand) {
+  Watched robot;
+  robot.in.stands = 1;
+  EXPECT_EQ(robot.tick(5000, false), STOP_NONE);
+  robot.in.stands = 0;
+  EXPECT_EQ(robot.tick(499, false), STOP_NONE);
+  EXPECT_EQ(robot.tick(1, false), STOP_STUCK);
+}
+
 TEST(FirmwareSafety, StopsWhenNoFootIsOnTheGroundForTooLongOrTheTrunkIsTilted) {
   Watched robot;
+  robot.tick();
   for (uint8_t& touch : robot.in.touch) touch = 0;
   EXPECT_EQ(robot.tick(99, false), STOP_NONE);
   EXPECT_EQ(robot.tick(1, false), STOP_FALLEN);
   Watched tilted;
   tilted.in.tilted = 1;
   EXPECT_EQ(tilted.tick(), STOP_FALLEN);
+}
+
+TEST(FirmwareSafety, CallsNoRobotFallenThatHasNotLandedSinceItWalks) {
+  Watched robot;
+  for (uint8_t& touch : robot.in.touch) touch = 0;
+  EXPECT_EQ(robot.tick(300, false), STOP_NONE);
+  robot.in.touch[2] = 1;
+  EXPECT_EQ(robot.tick(1, false), STOP_NONE);
+  robot.in.touch[2] = 0;
+  EXPECT_EQ(robot.tick(99, false), STOP_NONE);
+  robot.in.walks = 0;
+  EXPECT_EQ(robot.tick(1, false), STOP_NONE);
+  robot.in.walks = 1;
+  EXPECT_EQ(robot.tick(499, false), STOP_NONE);
+  EXPECT_EQ(robot.tick(1, false), STOP_STUCK);
 }
 
 TEST(FirmwareSafety, WithoutSwitchesWatchesNoFoot) {
@@ -265,6 +339,37 @@ TEST(FirmwareCommands, RunOutWhereNoLineFollows) {
 
 TEST(FirmwarePca9685, CountsTheNearestOfItsClock) {
   for (int16_t us = 0; us < 3000; ++us) EXPECT_NEAR(pca9685_counts(us), us / 4.88, 0.5001);
+}
+
+/// Registers that were written to; a chip that is gone takes nothing.
+std::vector<int>& written() {
+  static std::vector<int> registers;
+  return registers;
+}
+int take(const std::uint8_t* bytes, std::uint8_t count) {
+  for (int i = 1; i < count; ++i) written().push_back(bytes[0] + i - 1);
+  return 1;
+}
+int refuse(const std::uint8_t*, std::uint8_t) {
+  return 0;
+}
+
+TEST(FirmwarePca9685, WritesToNoRegisterOfAChannelThatItHasNot) {
+  for (int channel = 0; channel < 256; ++channel) {
+    written().clear();
+    EXPECT_EQ(pca9685_pulse(take, static_cast<std::uint8_t>(channel), 1500), channel < 16) << channel;
+    if (channel < 16)
+      EXPECT_THAT(written(),
+                  testing::ElementsAre(6 + 4 * channel, 7 + 4 * channel, 8 + 4 * channel, 9 + 4 * channel));
+    else
+      EXPECT_THAT(written(), testing::IsEmpty()) << channel;
+  }
+}
+
+TEST(FirmwarePca9685, SaysWhetherTheChipTookIt) {
+  EXPECT_EQ(pca9685_init(take), 1);
+  EXPECT_EQ(pca9685_init(refuse), 0);
+  EXPECT_EQ(pca9685_pulse(refuse, 0, 1500), 0);
 }
 
 }  // namespace

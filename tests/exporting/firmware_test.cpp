@@ -201,6 +201,24 @@ TEST(Firmware, OfAnArduinoThatHangsIsResetAndWaitsToBeArmed) {
   expect_in_page(ran.out);
 }
 
+TEST(Firmware, OfALostBusCutsTheServosOffAndIsNotArmedBeforeItIsBackAsItsPageSays) {
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-lost-bus");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_NE(ran.out.find("10.10 s: OE cuts the servos off\n"), std::string::npos) << ran.out;
+  expect_in_page(ran.out);
+  if (!installed_for_arduino()) GTEST_SKIP() << "compiler, core and emulator: ./setup --firmware";
+  const Ran arduino = make_example(scratch, "run-lost-bus-arduino");
+  EXPECT_EQ(arduino.exit_code, 0) << arduino.out;
+  EXPECT_NE(arduino.out.find(ran.out), std::string::npos) << arduino.out;
+}
+
+TEST(Firmware, KeepsWhatItPromisesWhateverComesByPinsSerialPortAndBus) {
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "check-robot");
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+}
+
 /// The example with another controller.
 void write_example(const TemporaryFolder& scratch, const experiment::Champion& champion,
                    Arithmetic arithmetic = Arithmetic::float32) {
@@ -235,6 +253,69 @@ experiment::Champion feeling() {
            modulation + "rate=1", modulation + "shape=1"}});
 }
 
+/// SUPGs with switches that are told a speed and a turn.
+experiment::Champion obeying_with_switches() {
+  return evolve({.name = "obeying_with_switches",
+                 .preset = "authors/supg",
+                 .assignments = {modulation + R"(sensors=["command_speed","command_turn"])",
+                                 modulation + "rate=1", modulation + "shape=1", "command.kind=random"}});
+}
+
+/// Replaces in a file of the example, which must have it.
+void replace_in(const std::filesystem::path& file, const std::string& what, const std::string& by) {
+  std::string text = io::read_file(file);
+  const std::size_t at = text.find(what);
+  ASSERT_NE(at, std::string::npos) << file << " " << what;
+  io::write_file(file, text.replace(at, what.size(), by));
+}
+
+TEST(Firmware, OfARobotWithSwitchesThatIsToldToStandStaysArmed) {
+  const TemporaryFolder scratch;
+  write_example(scratch, obeying_with_switches());
+  const Ran ran = make_other(scratch, "check-robot run-60s-host");
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_NE(ran.out.find("| told to stand it stays armed, whatever its feet do | yes |"), std::string::npos)
+      << ran.out;
+}
+
+TEST(Firmware, KeepsTheTimeOfControllersOfOtherTicks) {
+  for (const char* tick_us : {"5000", "12500", "16667", "20000"}) {
+    const TemporaryFolder scratch;
+    std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
+    replace_in(scratch / "firmware/walker.h", "WALKER_TICK_US 10000",
+               std::string("WALKER_TICK_US ") + tick_us);
+    const Ran ran = make_other(scratch, "run-60s-host check-robot");
+    EXPECT_EQ(ran.exit_code, 0) << tick_us << "\n" << ran.out;
+  }
+}
+
+TEST(Firmware, CheckOfPromisesSeesEachThatIsBroken) {
+  struct Fault {
+    std::string file, what, by, claim;
+  };
+  for (const auto& [file, what, by, claim] : std::vector<Fault>{
+           {"robot.c", "left > 0 && (character", "(character", "no tick is longer"},
+           {"robot.c", "if (r->quiet_ticks > 0) return;", "", "no tick is longer"},
+           {"robot.c", "(ends && mode == ROBOT_CALIBRATES)", "0", "lines that arm and stop"},
+           {"robot.c", "character - 'A' + 'a'", "character", "`stop` stops in large"},
+           {"robot.c", "  board_outputs(0);\n", "", "cut off without the bus"},
+           {"robot.c", "if (board_outputs(1)) return 1;", "board_outputs(1);\n  return 1;",
+            "before the bus is back"},
+           {"robot.c", "least_arm_ticks = 300000", "least_arm_ticks = 20000", "a spike"},
+           {"robot.c", "&& ticks <= most_arm_ticks", "", "a spike"},
+           {"safety.c", "limits->slow_us > 0", "limits->slow_us == 0", "1.2 times"},
+           {"safety.c", "s->landed && !touches", "!touches && in->walks", "in the air it walks"}}) {
+    const TemporaryFolder scratch;
+    std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
+    replace_in(scratch / "firmware" / file, what, by);
+    const Ran ran = make_other(scratch, "check-robot");
+    EXPECT_NE(ran.exit_code, 0) << what;
+    const std::size_t at = ran.out.find(claim);
+    ASSERT_NE(at, std::string::npos) << what << "\n" << ran.out;
+    EXPECT_EQ(ran.out.substr(ran.out.find(" |", at), 12), " | **no** |\n") << what << "\n" << ran.out;
+  }
+}
+
 TEST(Firmware, OfOtherControllersIsJudgedGoodAsWell) {
   const experiment::Champion blind = evolve(
                                  {.name = "blind", .preset = "authors/supg", .assignments = no_switches}),
@@ -246,7 +327,7 @@ TEST(Firmware, OfOtherControllersIsJudgedGoodAsWell) {
                                              {&feels, Arithmetic::float32}}) {
     const TemporaryFolder scratch;
     write_example(scratch, *champion, arithmetic);
-    const Ran ran = make_other(scratch, "run-60s-host");
+    const Ran ran = make_other(scratch, "run-60s-host check-robot");
     EXPECT_EQ(ran.exit_code, 0) << ran.out;
   }
 }
@@ -264,7 +345,7 @@ void expect_seen(const std::filesystem::path& folder, const std::string& fault, 
 TEST(Firmware, OfAControllerThatObeysIsToldWhatToDoAndStandsWhereNoLineFollows) {
   const TemporaryFolder scratch;
   write_example(scratch, obeying());
-  const Ran ran = make_other(scratch, "run-60s-host");
+  const Ran ran = make_other(scratch, "run-60s-host check-robot");
   ASSERT_EQ(ran.exit_code, 0) << ran.out;
   for (const auto& [fault, row] : std::map<std::string, std::string>{
            {"/^T 800 /,/^T 801 /s/^P 13 .*/P 13 1777/", "those of the exported controller"},
@@ -276,7 +357,7 @@ TEST(Firmware, OfAControllerThatObeysIsToldWhatToDoAndStandsWhereNoLineFollows) 
             (scratch / "firmware/my_robot.c").string() + "'");
   const Ran slower = make_other(scratch, "run-60s-host");
   EXPECT_EQ(slower.exit_code, 0) << slower.out;
-  EXPECT_NE(slower.out.find("| 2 from 13.51 s on | 2 from 13.51 s on |"), std::string::npos) << slower.out;
+  EXPECT_NE(slower.out.find("| 3 from 13.51 s on | 3 from 13.51 s on |"), std::string::npos) << slower.out;
 }
 
 TEST(Firmware, OfAControllerThatReadsMoreSaysWhatAndIsCopiedOnceThatIsRead) {
@@ -311,6 +392,7 @@ TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
            {"/^T 3200 /,/^T 3201 /s/^P 17 .*/P 17 1700/", "a tick 70 ms late"},
            {"/^T 50 /,/^T 51 /s/^P 17 .*/P 17 1700/", "before it is armed"},
            {"/^T 4000 /,/^T 4001 /d", "got its pulse"},
+           {"s/^T 5999 .*/T 5999 48000000/", "got its pulse"},
            {"0,/^S not obeyed/{/^S not obeyed/d}", "takes none"}})
     expect_seen(scratch.path(), fault, row);
 }
@@ -370,11 +452,53 @@ TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdfAlsoWhereItCannotBeCompiled) {
   }
 }
 
+TEST(Firmware, OfAnEsp32IsCompiledByEspIdfWithoutFusedOperations) {
+  const TemporaryFolder scratch;
+  const Ran copied = make_example(scratch, "esp32 RISCV=no-compiler");
+  ASSERT_EQ(copied.exit_code, 0) << copied.out;
+  io::write_file(scratch / "CMakeLists.txt",
+                 "cmake_minimum_required(VERSION 3.16)\nproject(walker C)\n"
+                 "function(idf_component_register)\n"
+                 "  cmake_parse_arguments(given \"\" \"\" \"SRCS;INCLUDE_DIRS\" ${ARGN})\n"
+                 "  add_library(main STATIC ${given_SRCS})\nendfunction()\n"
+                 "set(COMPONENT_LIB main)\nadd_subdirectory(main)\n");
+  const std::string folder = "'" + scratch.path().string() + "'";
+  const Ran made =
+      run_shell("cmake -S " + folder + " -B " + folder + "/made -DCMAKE_EXPORT_COMPILE_COMMANDS=ON");
+  ASSERT_EQ(made.exit_code, 0) << made.out;
+  std::istringstream commands(io::read_file(scratch / "made/compile_commands.json"));
+  int seen = 0;
+  for (std::string line; std::getline(commands, line);)
+    if (line.find("\"command\"") != std::string::npos && line.find("/walker.c") != std::string::npos) {
+      ++seen;
+      EXPECT_NE(line.find(" -ffp-contract=off "), std::string::npos) << line;
+    }
+  EXPECT_EQ(seen, 1);
+}
+
+TEST(Firmware, WithAPca9685HasNoMoreJointsThanTheChipHasChannels) {
+  for (const auto& [joints, compiles] : {std::pair{"16", true}, {"17", false}}) {
+    const TemporaryFolder scratch;
+    std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
+    replace_in(scratch / "firmware/walker.h", "WALKER_JOINTS 12", std::string("WALKER_JOINTS ") + joints);
+    // An Arduino's folder is compiled from its sources in C on, of which my_robot.c has twelve servos.
+    replace_in(scratch / "firmware/my_robot.c", "? 1 : -1", "? 1 : 1");
+    for (const char* goal : {"arduino.elf", "riscv-esp32-pulses_pca9685.o"}) {
+      if (goal[0] == 'a' ? !installed_for_arduino() : !installed("riscv64-unknown-elf-gcc")) continue;
+      const Ran ran = make_other(scratch, "'" + (scratch / "build" / goal).string() + "'");
+      EXPECT_EQ(ran.exit_code == 0, compiles) << goal << " " << joints << "\n" << ran.out;
+      EXPECT_EQ(ran.out.find("a_channel_for_each_joint") == std::string::npos, compiles) << goal << "\n"
+                                                                                         << ran.out;
+    }
+  }
+}
+
 TEST(Firmware, NamesNoLegAndNoJoint) {
   for (const char* file :
        {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c", "commands.c", "servos.c",
         "arduino/arduino.ino", "esp32/main.c", "esp32/pulses_ledc.c", "esp32/pulses_pca9685.c",
-        "emulator/board_qemu.c", "emulator/esp_idf_fake.c", "emulator/check_run.c", "emulator/sense.h"}) {
+        "emulator/board_qemu.c", "emulator/esp_idf_fake.c", "emulator/check_run.c", "emulator/check_robot.c",
+        "emulator/sense.h"}) {
     const std::string text = io::read_file(example + file);
     for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "shoulder"})
       EXPECT_EQ(text.find(name), std::string::npos) << file << " " << name;

@@ -9,13 +9,15 @@
 
 enum { chip_address = 0x40, stop_pin = 2, arm_pin = 3, output_enable_pin = 4 };
 
+typedef char a_channel_for_each_joint[WALKER_JOINTS <= PCA9685_CHANNELS ? 1 : -1];
+
 static robot walker;
 static uint32_t next_us;
 
-static void write_chip(const uint8_t *bytes, uint8_t count) {
+static int write_chip(const uint8_t *bytes, uint8_t count) {
   Wire.beginTransmission(chip_address);
   Wire.write(bytes, count);
-  Wire.endTransmission();
+  return Wire.endTransmission() == 0;
 }
 
 int board_read(walker_sensors *sensors) {
@@ -29,11 +31,19 @@ int board_read(walker_sensors *sensors) {
 
 int board_stop_pressed() { return digitalRead(stop_pin) == HIGH; }
 int board_arm_pressed() { return digitalRead(arm_pin) == LOW; }
-void board_pulse(uint8_t pin, int16_t pulse_us) { pca9685_pulse(write_chip, pin, pulse_us); }
+int board_pulse(uint8_t pin, int16_t pulse_us) { return pca9685_pulse(write_chip, pin, pulse_us); }
+// The chip may have lost power, so it begins anew.
+int board_outputs(int on) {
+  const int ready = on && pca9685_init(write_chip);
+  digitalWrite(output_enable_pin, ready ? LOW : HIGH);
+  return ready || !on;
+}
 int board_get_character() { return Serial.read(); }
 void board_print(const char *text) { Serial.print(text); }
 
 void setup() {
+  board_outputs(0);  // until the robot is armed
+  pinMode(output_enable_pin, OUTPUT);
   Serial.begin(115200);
   Wire.begin();
   Wire.setClock(400000);
@@ -46,8 +56,6 @@ void setup() {
   pinMode(arm_pin, INPUT_PULLUP);
   pinMode(LED_BUILTIN, OUTPUT);
   robot_init(&walker);
-  digitalWrite(output_enable_pin, LOW);
-  pinMode(output_enable_pin, OUTPUT);
   wdt_enable(WDTO_250MS);  // a program that hangs is reset: then a resistor pulls OE up, and no servo has a pulse
   next_us = micros();
 }

@@ -1,12 +1,12 @@
 /* Two bare processors in QEMU: a Cortex-M0 (nRF51, BBC micro:bit), whose ticks are those of SysTick, and RV32IMC as in
- * an ESP32-C3, whose ticks are those of RISC-V's machine timer. The robot is armed at once, its feet are those of
+ * an ESP32-C3, whose ticks are those of RISC-V's machine timer. The robot is armed after half a second, its feet are those of
  * somebody who walks on the spot, and the servos' pulses go to the standard output by semihosting. */
 #include "robot.h"
 #include "script.h"
 #include "sense.h"
 #include "semihosting.h"
 
-enum { arm_tick = 2, last_tick = 600 /* 6 s */ };
+enum { arm_tick = AT(50), last_tick = AT(600) };
 
 static robot walker;
 static uint32_t ticks_done, missed;
@@ -96,18 +96,24 @@ int robot_sense(walker_sensors *sensors) {
 #endif
 
 int board_stop_pressed(void) { return 0; }
-int board_arm_pressed(void) { return ticks_done == arm_tick; }
+int board_arm_pressed(void) { return script_pressed(ticks_done, arm_tick); }
 int board_get_character(void) { return -1; }
 void board_print(const char *text) { semihosting_print(text); }
 
-void board_pulse(uint8_t pin, int16_t pulse_us) {
-  if (ticks_done % 50u != 0) return;
+int board_outputs(int on) {
+  (void)on;
+  return 1;
+}
+
+int board_pulse(uint8_t pin, int16_t pulse_us) {
+  if (ticks_done % 50u != 0) return 1;
   if (pin == robot_servos[0].pin) {
     print_number("tick ", (int32_t)ticks_done);
     semihosting_print(": pulses, us");
   }
   print_number(" ", pulse_us);
   if (pin == robot_servos[WALKER_JOINTS - 1].pin) semihosting_print("\n");
+  return 1;
 }
 
 int main(void) {

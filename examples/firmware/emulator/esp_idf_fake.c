@@ -6,13 +6,19 @@
  *   S text                  what the robot prints
  * On a bare processor in QEMU the log goes to the host by semihosting, on the host to the standard output. With
  * -DSERIAL the standard input is the serial port, a line each second; nothing else happens, and nothing is logged but
- * lines and answers. */
+ * lines and answers. With -DLOSES_BUS the PCA9685 does not answer for a while, and the log is of what is printed and of
+ * OE alone, with times. */
 #include "esp_idf.h"
 #include "robot.h"
 #include "script.h"
 #include "sense.h"
 
 enum { stop_pin = 32, arm_pin = 0, output_enable_pin = 4, all_channels = 16, line_ticks = 100 };
+#ifdef LOSES_BUS
+enum { loses_bus = 1, last_tick = bus_over };
+#else
+enum { loses_bus = 0, last_tick = script_ticks };
+#endif
 
 static uint32_t tick;
 static int64_t now_us;
@@ -59,6 +65,7 @@ static void put_number(uint32_t number) {
 
 static void log_numbers(const char *kind, uint32_t a, uint32_t b) {
 #ifndef SERIAL
+  if (loses_bus) return;
   put(kind);
   put_number(a);
   put(" ");
@@ -69,23 +76,62 @@ static void log_numbers(const char *kind, uint32_t a, uint32_t b) {
 #endif
 }
 
+/* What the robot prints, and OE. */
+static void begin_line(void) {
+  const uint32_t hundredths = tick > 0 ? (tick - 1) * (WALKER_TICK_US / 100) / 100 : 0;
+  if (!loses_bus) {
+    put("S ");
+    return;
+  }
+  put_number(hundredths / 100);
+  put(hundredths % 100 < 10 ? ".0" : ".");
+  put_number(hundredths % 100);
+  put(" s: ");
+}
+
 /* ---- time ---- */
 
-TickType_t xTaskGetTickCount(void) { return (TickType_t)(now_us / 10000); }
 int64_t esp_timer_get_time(void) { return now_us; }
 
-int xTaskDelayUntil(TickType_t *previous, TickType_t ticks) {
-  *previous += ticks;
-  if (now_us < (int64_t)*previous * 10000) now_us = (int64_t)*previous * 10000;
+/* The only timer, and how often it has woken the only task. */
+static esp_timer_create_args_t timer_calls;
+static int64_t due_us;
+static uint64_t timer_period_us;
+static uint32_t notified;
+
+TaskHandle_t xTaskGetCurrentTaskHandle(void) { return &notified; }
+
+int xTaskNotifyGive(TaskHandle_t task) {
+  ++*(uint32_t *)task;
+  return 1;
+}
+
+esp_err_t esp_timer_create(const esp_timer_create_args_t *args, esp_timer_handle_t *timer) {
+  timer_calls = *args;
+  *timer = 0;
+  return 0;
+}
+
+esp_err_t esp_timer_start_periodic(esp_timer_handle_t timer, uint64_t period_us) {
+  timer_period_us = period_us;
+  due_us = now_us;
+  return timer != 0;
+}
+
+uint32_t ulTaskNotifyTake(int clears_count, TickType_t ticks) {
+  due_us += (int64_t)timer_period_us;
+  if (now_us < due_us) now_us = due_us;
 #ifndef SERIAL
-  if (tick == script_ticks) {
+  if (tick == last_tick) {
     flush();
     exit_good();
   }
   if (tick == late_tick) now_us += late_by_us;
 #endif
+  timer_calls.callback(timer_calls.arg);
   log_numbers("T ", tick++, (uint32_t)now_us);
-  return 1;
+  if (clears_count == 0 && ticks == portMAX_DELAY) --notified;
+  return notified + 1;
 }
 
 esp_err_t esp_task_wdt_add(TaskHandle_t task) { return task != 0; }
@@ -98,6 +144,10 @@ esp_err_t gpio_config(const gpio_config_t *config) { return config->pin_bit_mask
 /* The only output is OE of a PCA9685. */
 static int outputs_are_on;
 esp_err_t gpio_set_level(gpio_num_t pin, uint32_t level) {
+  if (loses_bus && outputs_are_on != (level == 0)) {
+    begin_line();
+    put(level ? "OE cuts the servos off\n" : "OE lets pulses through\n");
+  }
   outputs_are_on = level == 0;
   return pin != output_enable_pin;
 }
@@ -160,15 +210,17 @@ esp_err_t i2c_master_bus_add_device(i2c_master_bus_handle_t bus, const i2c_devic
   return bus != 0 || config->device_address != 0x40 || config->scl_speed_hz > 1000000;
 }
 
-/* Where the chip would not do what it is told, the log has no pulse, and the run is judged bad. */
+/* Where the chip would not do what it is told, the log has no pulse, and the run is judged bad. Where OE cuts a servo
+ * off, it has none, whatever the chip was told. */
 esp_err_t i2c_master_transmit(i2c_master_dev_handle_t device, const uint8_t *bytes, size_t count, int longest_ms) {
   const uint32_t channel = (uint32_t)(bytes[0] - led0) / 4u;
   size_t i;
+  if (loses_bus && script_loses_bus(tick - 1)) return 0x107;
   if (bytes[0] == pre_scale && !(registers[mode1] & asleep)) return 1; /* the divider is taken only while it sleeps */
   for (i = 1; i < count; ++i) registers[(bytes[0] + i - 1) & 0xff] = bytes[i];
-  if (count != 5 || channel >= all_channels || bytes[1] != 0 || bytes[2] != 0) return device != 0 || longest_ms < 1;
-  if (!outputs_are_on || registers[pre_scale] != at_50_hz || registers[mode1] != auto_increment) return 1;
-  log_numbers("C ", channel, bytes[4] & off ? 0u : bytes[3] + 256u * bytes[4]);
+  if (count != 5 || channel >= all_channels || bytes[1] != 0 || bytes[2] != 0) return device != 0 || longest_ms < 20;
+  if (registers[pre_scale] != at_50_hz || registers[mode1] != auto_increment) return 1;
+  log_numbers("C ", channel, !outputs_are_on || bytes[4] & off ? 0u : bytes[3] + 256u * bytes[4]);
   return 0;
 }
 
@@ -215,7 +267,7 @@ int uart_write_bytes(uart_port_t port, const void *from, size_t length) {
   size_t i;
   for (i = 0; i < length; ++i) {
     const char one[2] = {text[i], 0};
-    if (!in_line) put("S ");
+    if (!in_line) begin_line();
     put(one);
     in_line = text[i] != '\n';
   }

@@ -2,7 +2,8 @@
  * I2C bus, whose registers are written down (esp_idf_fake.c says how, check_run.c the line C). A tick is what the
  * program's light (pin 13) says. Before the late tick its main program is held up where it sleeps, while
  * interrupts go on. With the word `hang` behind the program it is held up for good, walking, at 6 s; what the hardware
- * watchdog makes of that is judged here. */
+ * watchdog makes of that is judged here. With `lost` the chip does not answer for a while, and the log is that of
+ * esp_idf_fake.c with -DLOSES_BUS. */
 #include <avr_extint.h>
 #include <avr_ioport.h>
 #include <avr_twi.h>
@@ -30,7 +31,7 @@ static long now_us(void) { return (long)(avr->cycle / (clock_hz / 1000000)); }
 
 /* For a run with `hang`. */
 enum { hang_tick = 600, ticks_after_reset = 100 };
-static int hangs, pulses_before, pulses_after;
+static int hangs, loses_bus, pulses_before, pulses_after;
 static long hung_us, reset_us;
 
 static void fail(const char *what) {
@@ -71,11 +72,30 @@ static void light_changed(avr_irq_t *irq, uint32_t value, void *param) {
   set_switches((uint32_t)tick);
   if (hangs && reset_us == 0 && hung_us > 0) reset_us = now_us();
   if (hangs) return;
-  if (tick < script_ticks) printf("T %ld %ld\n", tick, now_us());
+  if (tick < script_ticks && !loses_bus) printf("T %ld %ld\n", tick, now_us());
   type_line(script_line((uint32_t)tick));
 }
 
 /* ---- PCA9685 ---- */
+
+static int outputs_are_on;
+
+static void begin_line(void) {
+  if (loses_bus)
+    printf("%.2f s: ", (double)(tick < 0 ? 0 : tick) * WALKER_TICK_US / 1e6);
+  else
+    printf("S ");
+}
+
+/* OE is at pin 4, which is G5. A resistor pulls it up. */
+static void outputs_changed(avr_irq_t *irq, uint32_t value, void *param) {
+  (void)irq, (void)param;
+  if (outputs_are_on == !value) return;
+  outputs_are_on = !value;
+  if (!loses_bus) return;
+  begin_line();
+  puts(value ? "OE cuts the servos off" : "OE lets pulses through");
+}
 
 static struct {
   int selected, bytes, where;
@@ -90,8 +110,8 @@ static void end_transfer(void) {
   if (chip.registers[pre_scale] != at_50_hz || chip.registers[mode1] != auto_increment) fail("the chip is not at 50 Hz");
   r = &chip.registers[led0 + 4 * channel];
   if (r[0] != 0 || r[1] != 0) fail("a pulse does not begin at 0");
-  if (!(r[3] & 0x10)) ++*(hung_us > 0 ? &pulses_after : &pulses_before);
-  if (!hangs) printf("C %d %d\n", channel, r[3] & 0x10 ? 0 : r[2] + 256 * r[3]);
+  if (outputs_are_on && !(r[3] & 0x10)) ++*(hung_us > 0 ? &pulses_after : &pulses_before);
+  if (!hangs && !loses_bus) printf("C %d %d\n", channel, !outputs_are_on || r[3] & 0x10 ? 0 : r[2] + 256 * r[3]);
   if (held == 0 && hangs && tick == hang_tick && channel == channels - 1) held = 1;
   if (held == 0 && !hangs && tick + 1 == late_tick && channel == channels - 1) held = 1;
 }
@@ -102,7 +122,7 @@ static void bus_changed(avr_irq_t *irq, uint32_t value, void *param) {
   message.u.v = value;
   if (message.u.twi.msg & TWI_COND_STOP && chip.selected) end_transfer();
   if (message.u.twi.msg & TWI_COND_START) {
-    chip.selected = message.u.twi.addr >> 1 == chip_address;
+    chip.selected = message.u.twi.addr >> 1 == chip_address && !(loses_bus && script_loses_bus((uint32_t)tick));
     chip.bytes = 0;
     if (chip.selected) avr_raise_irq(bus + TWI_IRQ_INPUT, avr_twi_irq_msg(TWI_COND_ACK, message.u.twi.addr, 1));
   }
@@ -129,7 +149,9 @@ static void printed(avr_irq_t *irq, uint32_t value, void *param) {
   }
   line[length] = 0;
   length = 0;
-  if (!hangs) printf("S %s\n", line);
+  if (hangs) return;
+  begin_line();
+  puts(line);
 }
 
 static void connect(void) {
@@ -138,6 +160,7 @@ static void connect(void) {
   bus = avr_io_getirq(avr, AVR_IOCTL_TWI_GETIRQ(0), 0);
   avr_irq_register_notify(bus + TWI_IRQ_OUTPUT, bus_changed, NULL);
   avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 7), light_changed, NULL);
+  avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('G'), 5), outputs_changed, NULL);
   avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
   avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), printed, NULL);
   set_switches(0);
@@ -173,7 +196,8 @@ static void step(void) {
 int main(int argc, char **argv) {
   static elf_firmware_t firmware;
   hangs = argc == 3 && strcmp(argv[2], "hang") == 0;
-  if (argc != 2 + hangs || elf_read_firmware(argv[1], &firmware) != 0) fail("expected the program, an ELF file");
+  loses_bus = argc == 3 && strcmp(argv[2], "lost") == 0;
+  if (argc != 2 + hangs + loses_bus || elf_read_firmware(argv[1], &firmware) != 0) fail("expected the program, an ELF file");
   avr = avr_make_mcu_by_name("atmega2560");
   if (!avr) fail("simavr knows no ATmega2560");
   avr_init(avr);
@@ -183,7 +207,7 @@ int main(int argc, char **argv) {
   avr->log = LOG_ERROR;
   connect();
   if (!hangs) {
-    while (tick < script_ticks) step();
+    while (tick < (loses_bus ? bus_over : script_ticks)) step();
     return 0;
   }
   while (reset_us == 0 && now_us() < 10000000) step();

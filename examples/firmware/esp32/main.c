@@ -47,9 +47,18 @@ static void configure_input(int pin) {
   gpio_config(&config);
 }
 
+static void wake(void *task) { xTaskNotifyGive((TaskHandle_t)task); }
+
+/* By a timer of microseconds, as ticks of FreeRTOS are too coarse for some controllers. */
+static void begin_ticks(void) {
+  const esp_timer_create_args_t calls = {.callback = wake, .arg = xTaskGetCurrentTaskHandle(), .name = "walker"};
+  esp_timer_handle_t timer;
+  esp_timer_create(&calls, &timer);
+  esp_timer_start_periodic(timer, WALKER_TICK_US);
+}
+
 void app_main(void);
 void app_main(void) {
-  TickType_t last_wake;
   int leg;
   pulses_begin();
   for (leg = 0; leg < WALKER_LEGS; ++leg) configure_input(robot_switch_pins[leg]);
@@ -58,9 +67,9 @@ void app_main(void) {
   uart_driver_install(UART_NUM_0, serial_buffer, serial_buffer, 0, 0, 0);
   robot_init(&walker);
   esp_task_wdt_add(0); /* with CONFIG_ESP_TASK_WDT_PANIC a program that hangs is reset, which leaves pins without pulses */
-  last_wake = xTaskGetTickCount();
+  begin_ticks();
   for (;;) {
-    xTaskDelayUntil(&last_wake, pdMS_TO_TICKS(WALKER_TICK_US / 1000));
+    ulTaskNotifyTake(pdFALSE, portMAX_DELAY); /* ticks that were missed are caught up */
     esp_task_wdt_reset();
     robot_tick(&walker, (uint32_t)esp_timer_get_time());
   }

@@ -15,12 +15,18 @@ static int joint_of(uint8_t pin) {
   return joint;
 }
 
-void board_pulse(uint8_t pin, int16_t pulse_us) {
+/* Pulses come from the chip itself: without them its pins are low. */
+int board_outputs(int on) {
+  (void)on;
+  return 1;
+}
+
+int board_pulse(uint8_t pin, int16_t pulse_us) {
   const int joint = joint_of(pin);
   const ledc_mode_t mode = joint < channels ? LEDC_HIGH_SPEED_MODE : LEDC_LOW_SPEED_MODE;
   const ledc_channel_t channel = (ledc_channel_t)(joint % channels);
-  ledc_set_duty(mode, channel, ((uint32_t)pulse_us * 65536u + period_us / 2) / period_us);
-  ledc_update_duty(mode, channel);
+  return ledc_set_duty(mode, channel, ((uint32_t)pulse_us * 65536u + period_us / 2) / period_us) == 0 &&
+         ledc_update_duty(mode, channel) == 0;
 }
 
 void pulses_begin(void) {

@@ -81,9 +81,22 @@ esp_err_t uart_driver_install(uart_port_t port, int receives, int sends, int que
 int uart_read_bytes(uart_port_t port, void *to, uint32_t length, TickType_t ticks);
 int uart_write_bytes(uart_port_t port, const void *from, size_t length);
 
-#define pdMS_TO_TICKS(ms) ((TickType_t)(ms) / 10u) /* 100 Hz */
-TickType_t xTaskGetTickCount(void);
-int xTaskDelayUntil(TickType_t *previous, TickType_t ticks);
+#define pdFALSE 0
+#define portMAX_DELAY ((TickType_t)-1)
+TaskHandle_t xTaskGetCurrentTaskHandle(void);
+int xTaskNotifyGive(TaskHandle_t task);
+uint32_t ulTaskNotifyTake(int clears_count, TickType_t ticks);
+
+typedef struct {
+  void (*callback)(void *);
+  void *arg;
+  int dispatch_method;
+  const char *name;
+  int skip_unhandled_events;
+} esp_timer_create_args_t;
+typedef struct esp_timer *esp_timer_handle_t;
+esp_err_t esp_timer_create(const esp_timer_create_args_t *args, esp_timer_handle_t *timer);
+esp_err_t esp_timer_start_periodic(esp_timer_handle_t timer, uint64_t period_us);
 int64_t esp_timer_get_time(void);
 esp_err_t esp_task_wdt_add(TaskHandle_t task);
 esp_err_t esp_task_wdt_reset(void);
