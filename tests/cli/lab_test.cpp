@@ -61,10 +61,10 @@ TEST_F(LabCommand, GivesEachRobotFourControllersInTheBatchEngine) {
 }
 
 TEST_F(LabCommand, WritesNothingWhereThePageCannotBe) {
-  const std::string nowhere = scratch_ / "none/lab.html", notes = scratch_ / "notes.txt";
-  expect_refusal({"lab", robot("servo"), "-o", nowhere}, ExitCode::io,
-                 "cannot write " + nowhere + ": No such file or directory");
+  const std::string notes = scratch_ / "notes.txt", below = notes + "/lab.html";
   spill(notes, "not a page");
+  expect_refusal({"lab", robot("servo"), "-o", below}, ExitCode::io,
+                 "cannot write " + below + ": Not a directory");
   expect_refusal({"lab", robot("servo"), "-o", notes}, ExitCode::bad_input,
                  notes + " exists and is not a page: name another file");
   expect_refusal({"lab", robot("servo")}, ExitCode::bad_input, "--out is required (amble lab --help)");
