@@ -13,12 +13,15 @@
 /// Pieces of C99 text.
 namespace amble::exporting {
 
-/// Letters, digits and underscores alone, and no digit or underscore in front: every other character becomes
+/// Letters, digits and underscores alone, and no digit or underscore in front: Latin letters with marks
+/// become plain ones (ä: ae), those of other alphabets their number in Unicode (u5DE6), every other character
 /// an underscore, and "amble_" is put in front where needed.
 std::string c_identifier(std::string_view text);
+/// The same of letters, and all of them capitals.
 std::string upper_case(std::string text);
 
-/// Text that can be anywhere in a block comment: one line of ASCII without "*/", "/*" and trigraphs.
+/// Text that can be anywhere in a block comment: one line of ASCII without "*/", "/*" and trigraphs; letters
+/// as c_identifier() writes them, other characters that are not ASCII as question marks.
 std::string in_comment(std::string_view text);
 
 /// A string literal of in_comment(text).

@@ -141,43 +141,115 @@ class MassMender {
       : model_(model), missing_meshes_(missing_meshes) {}
 
   std::set<int> mend(const ModelText& text, ReadingNotes& notes) {
+    const std::vector<int> without_inertial = links_without_inertial(text);
+    find_what_weighs(text, without_inertial);
     for (const auto& [name, given] : text.missing_masses) {
-      const int b =
-          name.starts_with('#') ? std::atoi(name.c_str() + 1) : mj_name2id(&model_, mjOBJ_BODY, name.c_str());
-      if (b > 0 && b < model_.nbody) mend(b, name, given.mass_kg);
+      const int b = body_of(name);
+      if (b < 0) continue;
+      if (given.mass_kg > 0.0 || !weighing_.contains(group_of(b)))
+        mend(b, name, given.mass_kg);
+      else
+        set_weightless(b);
     }
+    mend_links(without_inertial);
     mend_roots();
     const std::vector<bool> has_inertial = text.urdf ? std::vector<bool>(to_index(model_.nbody), true)
                                                      : bodies_with_inertial(text.root, model_.nbody);
     for (int b = 1; b < model_.nbody; ++b) {
       if (!(model_.body_mass[b] > 0.0) || !shows_placeholder(b)) continue;
       if (model_.body_mass[b] < nothing_kg)
-        mend(b, model_.names + model_.name_bodyadr[b], 0.0);
+        mend(b, name_of(b), 0.0);
       else if (!has_inertial[to_index(b)])
         mend_lost(b);
     }
     mend_templates();
-    const auto note = [&](const char* what, const std::vector<std::string>& names) {
-      if (!names.empty()) notes.add(Reading::replaced, fmt::format("{}: {}", what, fmt::join(names, ", ")));
-    };
-    note("moments of inertia that are missing or 0, by those of the shapes with the body's mass", by_shapes_);
-    note("masses that are missing or 0, by those of the shapes filled with water, 1000 kg/m3", filled_);
-    note("moments of inertia that are missing or 0, without shapes, by those of a ball of water", balls_);
-    note(
-        "moments of inertia of bodies with a mesh that cannot be read, by those of their other shapes, or of "
-        "a ball of water, with the mass that their geoms have",
-        lost_);
-    if (!templates_.empty())
-      notes.add(
-          Reading::replaced,
-          fmt::format("moments of inertia that would need a body larger than the robot, by those of the "
-                      "shapes with the body's mass; check inertia, mass and units: {}",
-                      fmt::join(templates_, ", ")),
-          true);
+    add_notes(notes);
     return mended_;
   }
 
  private:
+  void add_notes(ReadingNotes& notes) const {
+    const auto note = [&](Reading reading, const char* what, const std::vector<std::string>& names,
+                          bool is_doubt = false) {
+      if (!names.empty()) notes.add(reading, fmt::format("{}: {}", what, fmt::join(names, ", ")), is_doubt);
+    };
+    note(Reading::kept, "links without a mass of their own weigh nothing, welded to links that have one",
+         weightless_);
+    note(Reading::replaced,
+         "links without <inertial>, welded to none that has a mass: theirs is that of their shapes filled "
+         "with water, 1000 kg/m3; give them mass and inertia",
+         links_of_water_, true);
+    note(Reading::replaced,
+         "moments of inertia that are missing or 0, by those of the shapes with the body's mass", by_shapes_);
+    note(Reading::replaced,
+         "masses that are missing or 0, by those of the shapes filled with water, 1000 kg/m3", filled_, true);
+    note(Reading::replaced,
+         "moments of inertia that are missing or 0, without shapes, by those of a ball of water", balls_);
+    note(
+        Reading::replaced,
+        "moments of inertia of bodies with a mesh that cannot be read, by those of their other shapes, or of "
+        "a ball of water, with the mass that their geoms have",
+        lost_);
+    note(Reading::replaced,
+         "moments of inertia that would need a body larger than the robot, by those of the shapes with the "
+         "body's mass; check inertia, mass and units",
+         templates_, true);
+  }
+
+  std::string name_of(int b) const { return model_.names + model_.name_bodyadr[b]; }
+
+  /// By its name, or "#3"; negative: none.
+  int body_of(const std::string& name) const {
+    const int b =
+        name.starts_with('#') ? std::atoi(name.c_str() + 1) : mj_name2id(&model_, mjOBJ_BODY, name.c_str());
+    return b > 0 && b < model_.nbody ? b : -1;
+  }
+
+  /// A number for all bodies that are welded to each other. For MuJoCo all roots of URDFs are welded to the
+  /// world.
+  int group_of(int b) const {
+    return model_.body_weldid[b] == 0 ? -model_.body_rootid[b] : model_.body_weldid[b];
+  }
+
+  /// Of a URDF, unless it says itself that all masses come from shapes.
+  std::vector<int> links_without_inertial(const ModelText& text) const {
+    std::vector<int> links;
+    const XmlElement* extension = text.urdf ? text.root.child("mujoco") : nullptr;
+    const XmlElement* compiler = extension != nullptr ? extension->child("compiler") : nullptr;
+    if (!text.urdf || (compiler != nullptr && compiler->attribute_or("inertiafromgeom", "") == "true"))
+      return links;
+    for (const XmlElement& link : text.root.children) {
+      if (link.name != "link" || link.child("inertial") != nullptr) continue;
+      if (const int b = body_of(link.attribute_or("name", "")); b > 0) links.push_back(b);
+    }
+    return links;
+  }
+
+  void find_what_weighs(const ModelText& text, const std::vector<int>& without_inertial) {
+    std::set<int> unknown(without_inertial.begin(), without_inertial.end());
+    for (const auto& [name, given] : text.missing_masses)
+      if (!(given.mass_kg > 0.0)) unknown.insert(body_of(name));
+    for (int b = 1; b < model_.nbody; ++b)
+      if (model_.body_mass[b] > 0.0 && !unknown.contains(b)) weighing_.insert(group_of(b));
+  }
+
+  void set_weightless(int b) {
+    if (model_.body_geomnum[b] > 0) weightless_.push_back(name_of(b));
+    set(b, 0.0, {});
+  }
+
+  /// MuJoCo fills what collides with water. ROS knows links that weigh nothing, as its bases do: what they
+  /// are welded to has their mass.
+  void mend_links(const std::vector<int>& without_inertial) {
+    for (const int b : without_inertial) {
+      if (!(model_.body_mass[b] > 0.0)) continue;
+      if (weighing_.contains(group_of(b)))
+        set_weightless(b);
+      else if (model_.body_mass[b] >= nothing_kg || !shows_placeholder(b))
+        links_of_water_.push_back(name_of(b));
+    }
+  }
+
   bool is_placeholder(int g) const { return morphology::is_placeholder(model_, g, missing_meshes_); }
 
   bool shows_placeholder(int b) const {
@@ -186,17 +258,22 @@ class MassMender {
     return false;
   }
 
-  /// MuJoCo asks bodies for no moments that are fixed to the world, as a URDF's root is for it.
+  /// MuJoCo asks bodies for no mass or moments that are fixed to the world, as a URDF's root is for it.
   void mend_roots() {
     for (int root = 1; root < model_.nbody; ++root) {
       if (model_.body_parentid[root] != 0 || model_.body_weldid[root] != 0) continue;
-      double sum = 0.0;
+      double inertia = 0.0, mass_kg = 0.0;
+      bool carries = false;  // what moves
       const auto is_part = [&](int b) { return model_.body_rootid[b] == root && model_.body_weldid[b] == 0; };
+      for (int b = root; b < model_.nbody; ++b) {
+        carries = carries || (model_.body_rootid[b] == root && !is_part(b));
+        mass_kg += is_part(b) ? model_.body_mass[b] : 0.0;
+        for (int i = 0; i < 3; ++i) inertia += is_part(b) ? model_.body_inertia[3 * b + i] : 0.0;
+      }
+      const bool lacks_mass = carries && !(mass_kg > 0.0), lacks_moments = inertia < mjMINVAL;
       for (int b = root; b < model_.nbody; ++b)
-        for (int i = 0; i < 3; ++i) sum += is_part(b) ? model_.body_inertia[3 * b + i] : 0.0;
-      for (int b = root; b < model_.nbody && sum < mjMINVAL; ++b)
-        if (is_part(b) && model_.body_mass[b] > 0.0)
-          mend(b, model_.names + model_.name_bodyadr[b], model_.body_mass[b]);
+        if (is_part(b) && (lacks_mass || (lacks_moments && model_.body_mass[b] > 0.0)))
+          mend(b, name_of(b), model_.body_mass[b]);
     }
   }
 
@@ -232,7 +309,7 @@ class MassMender {
       if (!(solid.volume_m3 > 0.0)) solid = solid_of(b, false);
       if (!(solid.volume_m3 > 0.0) || !(mass_kg > 0.0)) continue;
       set(b, mass_kg, solid.inertia_kg_m2(mass_kg));
-      templates_.emplace_back(model_.names + model_.name_bodyadr[b]);
+      templates_.push_back(name_of(b));
     }
   }
 
@@ -251,7 +328,7 @@ class MassMender {
   /// The mass is right, but a placeholder's moments are nearly 0.
   void mend_lost(int b) {
     const double mass_kg = model_.body_mass[b];
-    lost_.emplace_back(model_.names + model_.name_bodyadr[b]);
+    lost_.push_back(name_of(b));
     Solid solid = solid_of(b, true);
     if (!(solid.volume_m3 > 0.0)) solid = solid_of(b, false);
     if (!(solid.volume_m3 > 0.0)) {
@@ -301,7 +378,8 @@ class MassMender {
 
   mjModel_& model_;
   const std::map<std::string, std::string>& missing_meshes_;
-  std::vector<std::string> by_shapes_, filled_, balls_, lost_, templates_;
+  std::set<int> weighing_;  ///< groups of which a part has a mass in the file
+  std::vector<std::string> weightless_, links_of_water_, by_shapes_, filled_, balls_, lost_, templates_;
   std::set<int> mended_;
 };
 

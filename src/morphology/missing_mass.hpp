@@ -45,10 +45,11 @@ namespace amble::morphology {
 
 /// Gives bodies whose mass or moments are missing those of their shapes, of those that collide if there are
 /// any: with the mass that the file gives, else filled with water; without shapes those of a ball of water of
-/// that mass. What has neither mass nor shape keeps no mass. So do bodies that weigh what their geoms do,
-/// where a mesh of these could not be read: they keep the mass. Moments that would need a body larger than
-/// the robot become those of the shapes, too. `text`: what the model was compiled from. Returns the bodies
-/// that were changed, by MuJoCo's number.
+/// that mass. Without a mass remain what has no shape, and what is welded to a body that has a mass in the
+/// file, as a URDF's links without <inertial> often are. Bodies that weigh what their geoms do, where a mesh
+/// of these could not be read, keep the mass and get moments. Moments that would need a body larger than the
+/// robot become those of the shapes, too. `text`: what the model was compiled from. Returns the bodies that
+/// were changed, by MuJoCo's number.
 std::set<int> mend_masses(mjModel_& model, const ModelText& text, ReadingNotes& notes);
 
 }  // namespace amble::morphology

@@ -100,10 +100,8 @@ class MjcfCleaner {
         if (child.name == "body") self(self, child, childclass);
         if (child.name != "joint") continue;
         const auto range = defaults.attribute(child, "actuatorfrcrange", childclass);
-        const std::size_t blank = range ? range->find_last_of(" \t\n") : std::string::npos;
-        if (blank != std::string::npos)
-          text_.motors[child.attribute_or("name", "")].max_torque_nm =
-              positive_or_zero(range->substr(blank + 1));
+        if (const auto ends = numbers_of(range.value_or("")); ends.size() == 2)
+          text_.motors[child.attribute_or("name", "")].max_torque_nm = weaker_side(ends[0], ends[1]);
       }
     };
     for (const XmlElement& section : root_.children) {
@@ -111,7 +109,8 @@ class MjcfCleaner {
       if (section.name != "actuator") continue;
       for (const XmlElement& actuator : section.children)
         if (actuator.name == "position") {
-          const std::string joint = actuator.attribute_or("joint", "");
+          const std::string joint =
+              actuator.attribute_or("joint", actuator.attribute_or("jointinparent", ""));
           if (const double kv = positive_or_zero(defaults.attribute(actuator, "kv", "")); kv > 0.0)
             text_.motors[joint].kv_nm_s_per_rad = kv;
           if (const double ratio = positive_or_zero(defaults.attribute(actuator, "dampratio", ""));

@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -12,6 +13,15 @@
 
 namespace amble::morphology {
 namespace {
+
+/// Whether its force grows as the angle falls, or, without that, as the speed falls.
+bool is_position(const mjModel& model, int a) {
+  return model.actuator_biastype[a] == mjBIAS_AFFINE && model.actuator_biasprm[mjNBIAS * a + 1] < 0.0;
+}
+bool is_velocity(const mjModel& model, int a) {
+  return model.actuator_biastype[a] == mjBIAS_AFFINE && model.actuator_biasprm[mjNBIAS * a + 1] == 0.0 &&
+         model.actuator_biasprm[mjNBIAS * a + 2] < 0.0;
+}
 
 class DriveFinder {
  public:
@@ -68,16 +78,19 @@ class DriveFinder {
         continue;
       }
       const std::string name = actuator_name(a, joint_name(target));
-      if (!robot_.has_joint(target))
+      if (!robot_.has_joint(target)) {
         of_no_robot.push_back(name);
-      else
-        (actuated_.insert(target).second ? servos : seconds).push_back(name);
+        continue;
+      }
+      actuated_.insert(target);
+      const std::vector<int> used = servo_actuators(model_, target);
+      (std::ranges::find(used, a) != used.end() ? servos : seconds).push_back(name);
     }
     if (!servos.empty())
       note(Reading::replaced, "{} actuators by the robot file's servos: {}", servos.size(),
            fmt::join(servos, ", "));
     if (!seconds.empty())
-      note(Reading::left_out, "actuators beside the first of their joint: {}", fmt::join(seconds, ", "));
+      note(Reading::left_out, "actuators beside another of their joint: {}", fmt::join(seconds, ", "));
     if (!of_no_robot.empty())
       note(Reading::left_out, "actuators of joints that the robot does not have: {}",
            fmt::join(of_no_robot, ", "));
@@ -245,6 +258,21 @@ class DriveFinder {
 };
 
 }  // namespace
+
+std::vector<int> servo_actuators(const mjModel& model, int joint) {
+  std::vector<int> all;
+  for (int a = 0; a < model.nu; ++a) {
+    const int kind = model.actuator_trntype[a];
+    if ((kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) && model.actuator_trnid[2 * a] == joint)
+      all.push_back(a);
+  }
+  if (all.empty()) return all;
+  const auto position = std::ranges::find_if(all, [&](int a) { return is_position(model, a); });
+  if (position == all.end()) return {all.front()};
+  std::vector<int> servo{*position};
+  std::ranges::copy_if(all, std::back_inserter(servo), [&](int a) { return is_velocity(model, a); });
+  return servo;
+}
 
 std::vector<Drive> drives_of(const ModelFile& file, const RobotOfModel& robot, ReadingNotes& notes) {
   return DriveFinder(file, robot, notes).find();

@@ -21,6 +21,10 @@ struct RobotOfModel {
   std::function<int(int body)> rigid_body;   ///< the rigid body that a body is part of; −1: not the robot's
 };
 
+/// The actuators that make a joint's servo: a position actuator with what dampens the joint beside it
+/// (<velocity>), else the first one. Empty: none acts on it.
+std::vector<int> servo_actuators(const mjModel_& model, int joint);
+
 /// What moves each of MuJoCo's joints; of those that are not the robot's it means nothing. Adds a note on
 /// each actuator, equality constraint and tendon. A coupling of two joints, by an equality constraint or a
 /// tendon, is left out: a joint without an actuator that is coupled with one that has gets a motor of its

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,6 +22,9 @@ struct MotorHint {
   double max_speed_rad_s = 0.0;  ///< URDF <limit velocity>; 0: not given
   double kv_nm_s_per_rad = 0.0;  ///< MJCF <position kv>; 0: not given
   double damping_ratio = 0.0;    ///< MJCF <position dampratio>, in place of kv; 0: not given
+
+  /// URDF <safety_controller>, soft_lower_limit and soft_upper_limit.
+  std::optional<std::array<double, 2>> soft_limits_rad = {};
 
   /// Templates of URDFs have an effort of 1000 N m beside a velocity of 0.5 rad/s or so: neither is a
   /// motor's.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -30,6 +31,12 @@ double number_or_zero(const std::optional<std::string>& text) {
 double positive_or_zero(const std::optional<std::string>& text) {
   const double number = number_or_zero(text);
   return number > 0.0 && number < 1e9 ? number : 0.0;
+}
+
+double weaker_side(double lower, double upper) {
+  const double weaker = std::min(-lower, upper);
+  const double side = weaker > 0.0 ? weaker : std::max(std::abs(lower), std::abs(upper));
+  return side < 1e9 ? side : 0.0;
 }
 
 namespace {

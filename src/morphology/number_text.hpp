@@ -18,6 +18,10 @@ double number_or_zero(const std::optional<std::string>& text);
 /// The same if it is positive and below 1e9, else 0.
 double positive_or_zero(const std::optional<std::string>& text);
 
+/// Of a range of forces or torques: how much it allows to both sides, or, where it has only one, to that; 0
+/// if that is no motor's, 1e9 or more.
+double weaker_side(double lower, double upper);
+
 /// Puts limits right that are the wrong way round, of joints and, in MJCF, of whatever has a range, and notes
 /// joints without stops: those whose limits leave no range, which MuJoCo takes for none, and a URDF's without
 /// <limit>.

@@ -31,6 +31,8 @@ namespace {
 
 /// A controller moves a joint no further than this from the start pose unless the file says so.
 constexpr double widest_command_rad = 0.8;
+/// Twice as long ones would fall from more than a metre at the start of each trial.
+constexpr double longest_leg_of_any_robot_m = 50.0;
 /// Share of the trunk's clearance at the start that is left when a robot on more than four legs has fallen.
 constexpr double lying_share = 0.1;
 constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
@@ -60,6 +62,9 @@ class RobotGuesser {
     robot_.bodies = parts_.bodies;
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;
+    refuse_giants();
+    bearing_nm_ = bearing_torque_nm(parts_, legs_.legs.size(), longest_leg_m(parts_, legs_));
+    servos_ = guess_servos(file_, parts_, bearing_nm_);
     guess_.name = model_.stem().string();
     line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
          io::printable(model_.filename().string()));
@@ -99,6 +104,16 @@ class RobotGuesser {
       at = end + 1;
     }
     line("{}", row);
+  }
+
+  /// Settings by size would be out of their ranges.
+  void refuse_giants() const {
+    if (const double legs_m = longest_leg_m(parts_, legs_); legs_m > longest_leg_of_any_robot_m)
+      fail(
+          ExitCode::bad_input,
+          "{}: its legs are {:.3g} m long, for which amble has no settings: are its lengths in another unit? "
+          "amble takes metres and kilograms; scale the model (mesh scale, origins, sizes)",
+          file_.path.string(), legs_m);
   }
 
   void write_legs() {
@@ -172,6 +187,11 @@ class RobotGuesser {
 
   /// `com_m`: height of the root's centre of mass at the start; `lift_m`: by what the model is lifted for it.
   void write_fall_height(double com_m, double lift_m) {
+    if (!(com_m > 0.0)) {
+      comment("The root's centre of mass starts below the lowest point: a leg's length below that.");
+      line("fall_height_m = {}", rounded_down(com_m - longest_leg_m(parts_, legs_)));
+      return;
+    }
     const double half_m = 0.5 * com_m;
     double bottom_m = std::numeric_limits<double>::infinity();
     const auto poses = robot::start_poses(robot_);
@@ -240,11 +260,10 @@ class RobotGuesser {
   }
 
   void write_servos() {
-    const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), longest_leg_m(parts_, legs_));
-    const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
     doubt_readings();
-    std::ranges::move(doubts_of_motors(file_, parts_, servos, bearing_nm), std::back_inserter(guess_.doubts));
-    if (std::ranges::any_of(servos, &ServoGuess::has_no_speed_limit))
+    std::ranges::move(doubts_of_motors(file_, parts_, servos_, bearing_nm_),
+                      std::back_inserter(guess_.doubts));
+    if (std::ranges::any_of(servos_, &ServoGuess::has_no_speed_limit))
       guess_.settled.emplace_back(
           "position actuators turn as fast as their torque allows, as an MJCF has no greatest speed; if what "
           "evolves vibrates, give [servo] one: docs/BUILDING.md");
@@ -252,12 +271,12 @@ class RobotGuesser {
     for (const LegGuess& leg : legs_.legs) driven.insert(driven.end(), leg.joints.begin(), leg.joints.end());
     if (std::string slow = slow_joints(file_, parts_, driven, longest_leg_m(parts_, legs_)); !slow.empty())
       guess_.doubts.push_back(std::move(slow));
-    const auto servo_of = [&](int j) -> const ServoGuess& { return servos[to_index(j)]; };
+    const auto servo_of = [&](int j) -> const ServoGuess& { return servos_[to_index(j)]; };
     ServoGuess common{{robot::ServoMode::velocity, 9.0, 1.0, 0.0, 0.0}, "there are no joints"};
     if (!legs_.legs.empty())
       common = servo_of(legs_.legs[0].joints.front());
-    else if (!servos.empty())
-      common = servos[0];
+    else if (!servos_.empty())
+      common = servos_[0];
     write_servo("servo", common);
     for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
       std::vector<std::pair<const LegGuess*, int>> joints;
@@ -278,13 +297,53 @@ class RobotGuesser {
         write_servo("servo_of." + io::toml_key(parts_.joints[to_index(j)].name), servo_of(j));
   }
 
+  /// Where the model limits the targets of a joint's motor, these limits from its start on: a range of
+  /// command has the start in it.
+  std::array<double, 2> target_limits(int j) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const double start = parts_.start_rad[to_index(j)];
+    const auto& limits = servos_[to_index(j)].target_range_rad;
+    if (!limits) return {-none, none};
+    return {std::min((*limits)[0], start), std::max((*limits)[1], start)};
+  }
+
   /// The range of command of a joint where it is not from stop to stop.
   std::optional<std::array<double, 2>> command(int j) const {
     const robot::Joint& joint = parts_.joints[to_index(j)];
-    if (joint.lower_rad >= -widest_command_rad && joint.upper_rad <= widest_command_rad) return std::nullopt;
     const double start = parts_.start_rad[to_index(j)];
-    return std::array{inward(start + std::max(joint.lower_rad, -widest_command_rad), start),
-                      inward(start + std::min(joint.upper_rad, widest_command_rad), start)};
+    const auto limits = target_limits(j);
+    const auto within = [&](double least, double most) {
+      return std::array{std::max({joint.lower_rad, -widest_command_rad, least - start}),
+                        std::min({joint.upper_rad, widest_command_rad, most - start})};
+    };
+    constexpr double none = std::numeric_limits<double>::infinity();
+    auto range = within(limits[0], limits[1]);
+    // Limits that leave no target but the start are none.
+    if (!(range[0] < range[1])) range = within(-none, none);
+    if (range[0] == joint.lower_rad && range[1] == joint.upper_rad) return std::nullopt;
+    return std::array{inward(start + range[0], start), inward(start + range[1], start)};
+  }
+
+  /// Whether the model's limits of targets leave less of a joint's range.
+  bool is_limited(int j) const {
+    const double start = parts_.start_rad[to_index(j)];
+    const robot::Joint& joint = parts_.joints[to_index(j)];
+    const auto limits = target_limits(j);
+    return limits[0] - start > std::max(joint.lower_rad, -widest_command_rad) ||
+           limits[1] - start < std::min(joint.upper_rad, widest_command_rad);
+  }
+
+  /// Which limits of targets the ranges of command keep to.
+  std::string limits_of_targets() const {
+    std::vector<std::string> names;
+    for (const LegGuess& leg : legs_.legs)
+      for (const int j : leg.joints)
+        if (is_limited(j)) names.push_back(parts_.joints[to_index(j)].name);
+    if (names.empty()) return "";
+    return fmt::format(", and within {} ({})",
+                       file_.is_urdf() ? "the soft limits of safety controllers"
+                                       : "ctrlrange of position actuators, which MuJoCo clips targets at",
+                       io::first_few(names));
   }
 
   void write_commands() {
@@ -308,8 +367,8 @@ class RobotGuesser {
     line("");
     comment(
         fmt::format("Targets of controllers, rad as the model counts: at most {} rad to either side of the "
-                    "start, within the stops. Wider ranges are harder to search.",
-                    widest_command_rad));
+                    "start, within the stops{}. Wider ranges are harder to search.",
+                    widest_command_rad, limits_of_targets()));
     line("[command]");
     guess_.toml += of_types;
     for (const LegGuess& leg : legs_.legs)
@@ -337,13 +396,60 @@ class RobotGuesser {
     for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", io::toml_key(name), angle);
   }
 
+  bool is_floor(int g) const {
+    const mjModel& model = *file_.model;
+    return model.geom_type[g] == mjGEOM_PLANE && model.body_weldid[model.geom_bodyid[g]] == 0;
+  }
+
+  /// A plane of the model's world that this geom touches; negative: none.
+  int floor_of(int foot) const {
+    const mjModel& model = *file_.model;
+    for (int g = 0; g < model.ngeom; ++g)
+      if (is_floor(g) && ((model.geom_contype[g] & model.geom_conaffinity[foot]) != 0 ||
+                          (model.geom_conaffinity[g] & model.geom_contype[foot]) != 0))
+        return g;
+    return -1;
+  }
+
+  /// As MuJoCo takes it: the greater one, or that of the geom of higher priority.
+  void write_friction() {
+    if (legs_.legs.empty()) {
+      line("friction = 1  # of no foot");
+      return;
+    }
+    const mjModel& model = *file_.model;
+    const int foot = parts_.model_geoms[to_index(legs_.legs[0].foot_geom)];
+    for (int p = 0; p < model.npair; ++p) {
+      const int one = model.pair_geom1[p], two = model.pair_geom2[p], other = one == foot ? two : one;
+      if ((one != foot && two != foot) || !is_floor(other)) continue;
+      line("friction = {:.4g}  # of the pair of the first foot and the floor, as in MuJoCo",
+           model.pair_friction[5 * p]);
+      return;
+    }
+    const int floor = floor_of(foot);
+    const double own = model.geom_friction[3 * foot];
+    if (floor < 0) {
+      line("friction = {:.4g}  # of the first foot in the model, which has no floor", own);
+      return;
+    }
+    const double of_floor = model.geom_friction[3 * floor];
+    const int ahead = model.geom_priority[foot] - model.geom_priority[floor];
+    if (ahead == 0)
+      line(
+          "friction = {:.4g}  # the greater of the first foot's, {:.4g}, and the floor's, {:.4g}, as in "
+          "MuJoCo",
+          std::max(own, of_floor), own, of_floor);
+    else
+      line("friction = {:.4g}  # of the {}, which has the higher priority; the {} has {:.4g}",
+           ahead > 0 ? own : of_floor, ahead > 0 ? "first foot" : "floor", ahead > 0 ? "floor" : "first foot",
+           ahead > 0 ? of_floor : own);
+  }
+
   void write_contact() {
-    double friction = 1.0, mass_kg = 0.0;
+    double mass_kg = 0.0;
     for (const robot::Body& body : parts_.bodies) mass_kg += body.mass_kg;
-    if (!legs_.legs.empty())
-      friction = file_.model->geom_friction[3 * parts_.model_geoms[to_index(legs_.legs[0].foot_geom)]];
     line("\n[contact]");
-    line("friction = {:.4g}  # of the first foot in the model", friction);
+    write_friction();
     comment("As the paper's quadruped; softness by weight, so that the robot sinks in as far.");
     line("erp = 0.1");
     line("cfm_s_per_kg = {:.3g}  # {} × {} kg / {:.4g} kg", paper_cfm_s_per_kg * paper_mass_kg / mass_kg,
@@ -357,6 +463,8 @@ class RobotGuesser {
   const ModelParts& parts_;
   const LegsGuess& legs_;
   const std::string& why_not_;
+  double bearing_nm_ = 0.0;
+  std::vector<ServoGuess> servos_;
   robot::RobotSpec robot_;
   RobotGuess guess_;
 };

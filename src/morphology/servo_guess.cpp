@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 #include <mujoco/mujoco.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "amble/core/index.hpp"
 #include "amble/io/text.hpp"
+#include "amble/morphology/number_text.hpp"
 #include "amble/robot/leg_doubts.hpp"
 
 namespace amble::morphology {
@@ -34,7 +37,8 @@ double rounded(double value) {
 /// What an actuator of the model does to a joint: torque = gain × control − kp × angle − kv × speed.
 struct Actuator {
   double gain = 0.0, kp = 0.0, kv = 0.0;
-  double max_torque_nm = 0.0;  ///< 0: not limited
+  double max_torque_nm = 0.0;  ///< to the weaker side, if it has two; 0: not limited
+  std::string uneven;          ///< its range of force, if it is not the same to both sides
   double control_limit = 0.0;  ///< 0: not limited
   bool is_geared = false;      ///< its forces are not its joint's torques
 };
@@ -51,13 +55,29 @@ Actuator read(const mjModel& model, int a) {
   }
   if (model.actuator_forcelimited[a] != 0) {
     const mjtNum* range = model.actuator_forcerange + 2 * a;
-    actuator.max_torque_nm = gear * std::max(std::abs(range[0]), std::abs(range[1]));
+    actuator.max_torque_nm = gear * weaker_side(range[0], range[1]);
+    if (range[0] != -range[1]) actuator.uneven = fmt::format("{:.4g} to {:.4g}", range[0], range[1]);
   }
   if (model.actuator_ctrllimited[a] != 0) {
     const mjtNum* range = model.actuator_ctrlrange + 2 * a;
     actuator.control_limit = std::max(std::abs(range[0]), std::abs(range[1]));
   }
   return actuator;
+}
+
+/// The angles, as the model counts them, at which a position actuator comes to rest within its ctrlrange.
+std::optional<std::array<double, 2>> target_range(const mjModel& model, int a) {
+  if (model.actuator_ctrllimited[a] == 0 || model.actuator_gaintype[a] != mjGAIN_FIXED) return std::nullopt;
+  const mjtNum* const bias = model.actuator_biasprm + mjNBIAS * a;
+  const auto angle_rad = [&](double control) {
+    return (model.actuator_gainprm[mjNGAIN * a] * control + bias[0]) /
+           (-bias[1] * model.actuator_gear[6 * a]);
+  };
+  const std::array ends{angle_rad(model.actuator_ctrlrange[2 * a]),
+                        angle_rad(model.actuator_ctrlrange[2 * a + 1])};
+  const auto [lower, upper] = std::ranges::minmax(ends);
+  if (!(lower < upper)) return std::nullopt;
+  return std::array{lower, upper};
 }
 
 class ServoGuesser {
@@ -68,15 +88,19 @@ class ServoGuesser {
     const mjModel& model = *file_.model;
     MotorHint hint;
     if (const auto found = file_.motors.find(name); found != file_.motors.end()) hint = found->second;
-    for (int a = 0; a < model.nu; ++a) {
-      if (model.actuator_trntype[a] != mjTRN_JOINT || model.actuator_trnid[2 * a] != model_joint) continue;
-      const Actuator actuator = read(model, a);
-      if (actuator.kp > 0.0) return of_position(actuator, hint, damping);
-      if (actuator.kv > 0.0) return of_velocity(actuator, hint);
-      return of_motor(actuator, hint, damping);
+    if (const std::vector<int> actuators = servo_actuators(model, model_joint); !actuators.empty()) {
+      Actuator actuator = read(model, actuators.front());
+      for (std::size_t k = 1; k < actuators.size(); ++k) actuator.kv += read(model, actuators[k]).kv;
+      ServoGuess guessed = actuator.kp > 0.0   ? of_position(actuator, hint, damping)
+                           : actuator.kv > 0.0 ? of_velocity(actuator, hint)
+                                               : of_motor(actuator, hint, damping);
+      guessed.uneven_force = actuator.uneven;
+      if (actuator.kp > 0.0) guessed.target_range_rad = target_range(model, actuators.front());
+      return guessed;
     }
-    if (hint.max_torque_nm > 0.0) return of_effort(hint);
-    return of_nothing(hint);
+    ServoGuess guessed = hint.max_torque_nm > 0.0 ? of_effort(hint) : of_nothing(hint);
+    guessed.target_range_rad = hint.soft_limits_rad;
+    return guessed;
   }
 
  private:
@@ -96,6 +120,9 @@ class ServoGuesser {
 
   /// The largest torque, and where it comes from.
   std::pair<double, std::string> limit(const Actuator& actuator, const MotorHint& hint) const {
+    if (!actuator.uneven.empty() && actuator.max_torque_nm > 0.0)
+      return {actuator.max_torque_nm,
+              fmt::format("the weaker side of the actuator's force range, {}", actuator.uneven)};
     if (actuator.max_torque_nm > 0.0) return {actuator.max_torque_nm, "the actuator's force range"};
     if (hint.max_torque_nm > 0.0) return {hint.max_torque_nm, "the joint's actuatorfrcrange"};
     return {enough(),
@@ -240,7 +267,7 @@ double gain_within(double max_speed_rad_s) {
 
 std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelParts& parts,
                                           const std::vector<ServoGuess>& servos, double bearing_nm) {
-  std::vector<std::string> torqueless, speedless, gearless;
+  std::vector<std::string> torqueless, speedless, gearless, uneven;
   bool in_kg_cm = false;
   for (std::size_t j = 0; j < servos.size(); ++j) {
     if (parts.drives[j] == Drive::none) continue;
@@ -248,6 +275,8 @@ std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelPart
     if (servos[j].torque_is_guessed) torqueless.push_back(name);
     if (servos[j].speed_is_guessed) speedless.push_back(name);
     if (servos[j].lacks_gear) gearless.push_back(name);
+    if (!servos[j].uneven_force.empty())
+      uneven.push_back(fmt::format("{} ({})", name, servos[j].uneven_force));
     const auto hint = file.motors.find(name);
     const double effort = hint == file.motors.end() ? 0.0 : hint->second.max_torque_nm;
     in_kg_cm = in_kg_cm || (servos[j].torque_is_guessed && effort > 0.0 && effort < most_kg_cm &&
@@ -270,6 +299,11 @@ std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelPart
     doubts.push_back(
         fmt::format("motors with controls of ±1 and a gear of 1 give 1 N m: is `gear` missing? {}",
                     io::first_few(gearless)));
+  if (!uneven.empty())
+    doubts.push_back(
+        fmt::format("actuators that are stronger to one side: amble's servos are not, and have the torque of "
+                    "the weaker: {}",
+                    io::first_few(uneven)));
   if (std::string strong = strong_actuators(parts, servos, bearing_nm); !strong.empty())
     doubts.push_back(std::move(strong));
   return doubts;

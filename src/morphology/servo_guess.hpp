@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,10 @@ struct ServoGuess {
   bool lacks_gear = false;          ///< its torque is that of a control of ±1 with a gear of 1
   bool has_no_speed_limit = false;  ///< a position actuator: as fast as its torque allows
   bool torque_is_geared = false;    ///< a position actuator's force times its gear
+  /// Of the targets that the model lets its motor have, as the model counts angles: ctrlrange of a position
+  /// actuator, soft limits of a URDF.
+  std::optional<std::array<double, 2>> target_range_rad = {};
+  std::string uneven_force = {};  ///< an actuator's range of force that is not the same to both sides
 };
 
 /// The torque with which a leg of that length bears its share of the robot's weight at right angles.

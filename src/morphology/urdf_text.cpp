@@ -142,22 +142,6 @@ class UrdfMeshes {
   std::vector<std::string> unseen_, sizeless_, elsewhere_;
 };
 
-/// Links without <inertial>, which MuJoCo fills with water.
-void note_filled_links(const XmlElement& root, ReadingNotes& notes) {
-  std::vector<std::string> filled;
-  for (const XmlElement& link : root.children) {
-    const bool shapes = link.child("collision") != nullptr || link.child("visual") != nullptr;
-    if (link.name == "link" && shapes && link.child("inertial") == nullptr)
-      filled.push_back(link.attribute_or("name", ""));
-  }
-  if (!filled.empty())
-    notes.add(
-        Reading::replaced,
-        fmt::format("links without <inertial>: their mass is that of their shapes filled with water, 1000 "
-                    "kg/m3; give them mass and inertia: {}",
-                    fmt::join(filled, ", ")));
-}
-
 /// MuJoCo 2.2 reads on after a type that it does not know, and dies of it.
 void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
   static constexpr std::array<std::string_view, 6> types{"revolute", "continuous", "prismatic",
@@ -225,6 +209,28 @@ void read_motors(ModelText& text, ReadingNotes& notes) {
   if (control) notes.add(Reading::left_out, "ros2_control: the robot file has the servos");
 }
 
+/// What MuJoCo does not read of them.
+void read_limits(ModelText& text, ReadingNotes& notes) {
+  bool safety_controllers = false;
+  for (const XmlElement& joint : text.root.children) {
+    if (joint.name != "joint") continue;
+    MotorHint& motor = text.motors[joint.attribute_or("name", "")];
+    if (const XmlElement* limit = joint.child("limit")) {
+      motor.max_torque_nm = positive_or_zero(limit->attribute("effort"));
+      motor.max_speed_rad_s = positive_or_zero(limit->attribute("velocity"));
+    }
+    if (const XmlElement* safety = joint.child("safety_controller")) {
+      safety_controllers = true;
+      const double lower = number_or_zero(safety->attribute("soft_lower_limit")),
+                   upper = number_or_zero(safety->attribute("soft_upper_limit"));
+      if (lower < upper) motor.soft_limits_rad = {lower, upper};
+    }
+  }
+  if (safety_controllers)
+    notes.add(Reading::left_out,
+              "safety controllers: `amble robot --init` reads their soft limits as ranges of command");
+}
+
 }  // namespace
 
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
@@ -246,15 +252,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   complete_inertials(root, text.missing_masses);
   balance_inertias(root, true, notes);
   mend_limits(root, true, notes);
-  note_filled_links(root, notes);
-  for (const XmlElement& joint : root.children) {
-    if (joint.name != "joint") continue;
-    MotorHint& motor = text.motors[joint.attribute_or("name", "")];
-    if (const XmlElement* limit = joint.child("limit")) {
-      motor.max_torque_nm = positive_or_zero(limit->attribute("effort"));
-      motor.max_speed_rad_s = positive_or_zero(limit->attribute("velocity"));
-    }
-  }
+  read_limits(text, notes);
 }
 
 }  // namespace amble::morphology

@@ -119,6 +119,21 @@ TEST(StartLook, DoubtsARobotThatIsTooLargeWhateverItWeighs) {
   EXPECT_THAT(scaled(1000.0, 1.0), ElementsAre(HasSubstr("mass:"))) << "said once";
 }
 
+TEST(StartLook, SaysWhichCentresOfMassAreFarFromTheirLink) {
+  const auto lines_of = [](double com_m) {
+    auto robot = own_robot("quadruped/authors");
+    robot.bodies[1].com_m = {0.0, 0.0, com_m};
+    return odd_at_start(robot, "batch", 0.01);
+  };
+  EXPECT_THAT(lines_of(-0.3), IsEmpty());
+  const auto far = lines_of(-300.0);
+  EXPECT_THAT(far, Contains(testing::AllOf(HasSubstr("mass: centres of mass"), HasSubstr("millimetres"),
+                                           HasSubstr(own_robot("quadruped/authors").bodies[1].name + " ("))));
+  // Its centre of mass is below the ground: shares of that height say nothing.
+  EXPECT_THAT(far, testing::Not(Contains(HasSubstr("thrown up"))));
+  EXPECT_THAT(far, testing::Not(Contains(HasSubstr("sinks"))));
+}
+
 TEST(StartLook, MeasuresMeshesAsItMeasuresBoxes) {
   const auto mass_of = [](robot::Shape shape, double half_m) {
     auto robot = own_robot("quadruped/authors");

@@ -21,7 +21,23 @@ TEST(CText, MakesIdentifiers) {
   EXPECT_EQ(c_identifier("2legs"), "amble_2legs");
   EXPECT_EQ(c_identifier("_x"), "amble__x");
   EXPECT_EQ(c_identifier(""), "amble_");
-  EXPECT_EQ(c_identifier("\xc3\xa9"), "amble___");
+  EXPECT_EQ(c_identifier("a\xc3"), "a_") << "half a character";
+}
+
+TEST(CText, KeepsTheLettersOfNamesThatAreNotAscii) {
+  EXPECT_EQ(c_identifier("ä_ö_ü_ß"), "ae_oe_ue_ss");
+  EXPECT_EQ(c_identifier("a\u0308_e\u0301"), "ae_e") << "marks of their own";
+  EXPECT_EQ(c_identifier("Éléphant Žižka å ő"), "Elephant_Zizka_aa_o");
+  EXPECT_EQ(c_identifier("ſ×À"), "s_A") << "the ends of the table";
+  EXPECT_EQ(c_identifier("左_knee"), "u5DE6_knee");
+  EXPECT_NE(c_identifier("лев"), c_identifier("пра"));
+  EXPECT_EQ(c_identifier("a–b"), "a_b") << "a dash is no letter";
+  EXPECT_EQ(in_comment("ü_knee, 右: ²"), "ue_knee, u53F3: ?");
+  EXPECT_EQ(c_string("ü"), "\"ue\"");
+  // Enumerators are made of these.
+  UniqueNames names;
+  EXPECT_EQ(names.of(upper_case("ä")), "AE");
+  EXPECT_EQ(names.of(upper_case("Ä")), "AE_2");
 }
 
 TEST(CText, TellsNamesApart) {

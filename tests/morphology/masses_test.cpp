@@ -100,6 +100,90 @@ TEST(Masses, OfLinksBetweenTwoJointsInOnePointMayBeMissing) {
   }
 }
 
+double total_kg(const ModelParts& parts) {
+  double mass_kg = 0.0;
+  for (const robot::Body& part : parts.bodies) mass_kg += part.mass_kg;
+  return mass_kg;
+}
+
+const std::string block = R"(<collision><geometry><box size="0.3 0.2 0.1"/></geometry></collision>)";
+
+/// The link, fixed to that one.
+std::string fixed_link(const std::string& name, const std::string& parent, const std::string& inside) {
+  return "<link name=\"" + name + "\">" + inside + "</link><joint name=\"" + name +
+         "_joint\" type=\"fixed\"><parent link=\"" + parent + "\"/><child link=\"" + name +
+         "\"/></joint></robot>";
+}
+
+TEST(Masses, OfLinksWithoutInertialAreThoseOfTheLinksThatTheyAreWeldedTo) {
+  const Files files;
+  const std::string urdf = urdf_with_effort();
+  const double mass_kg = total_kg(parts_of(files, "r.urdf", urdf));
+  ASSERT_NEAR(mass_kg, 4.2, 1e-12);
+  const std::string inertial =
+      urdf.substr(urdf.find("<inertial>"), urdf.find("</inertial>") + 11 - urdf.find("<inertial>"));
+  // Behind the trunk and behind a shin; the idiom of ROS, a base whose mass is that of a link on it.
+  std::string behind = with(urdf, "</robot>", fixed_link("cover", "base", block));
+  behind = with(behind, "</robot>", fixed_link("boot", "left_shin", block));
+  const std::string idiom =
+      with(with(urdf, inertial, block), "</robot>", fixed_link("inertia", "base", inertial));
+  const std::string second = with(with(urdf, "</robot>", fixed_link("cover", "base", block)), "</robot>",
+                                  fixed_link("screw", "cover", block));
+  for (const auto& [text, names] :
+       {std::pair{behind, "cover, boot"}, {idiom, "base"}, {second, "cover, screw"}}) {
+    const ModelParts parts = parts_of(files, "r.urdf", text);
+    EXPECT_NEAR(total_kg(parts), mass_kg, 1e-12) << names;
+    EXPECT_EQ(body(parts, "base").mass_kg, 3.0) << names;
+    EXPECT_THAT(parts.notes.text(),
+                HasSubstr(std::string("weigh nothing, welded to links that have one: ") + names));
+    EXPECT_THAT(parts.notes.text(), Not(HasSubstr("water")));
+  }
+  // It is not weighed either where MuJoCo asks for the masses of others.
+  std::string zero = with(behind, R"(<mass value="0.3"/><inertia ixx="0.01" iyy="0.01" izz="0.01")",
+                          R"(<mass value="0.3"/><inertia ixx="0" iyy="0" izz="0")");
+  EXPECT_NEAR(total_kg(parts_of(files, "r.urdf", zero)), mass_kg, 1e-12);
+}
+
+TEST(Masses, OfLinksWithoutInertialWhereNothingWeighsAreThoseOfWaterAndDoubted) {
+  const Files files;
+  const std::string urdf = urdf_with_effort();
+  const std::string inertial =
+      urdf.substr(urdf.find("<inertial>"), urdf.find("</inertial>") + 11 - urdf.find("<inertial>"));
+  const auto doubts = [&](const std::string& text) {
+    return guess_robot(compile_model(files.write("r.urdf", text)), "r.urdf").doubts;
+  };
+  const std::string bare = with(urdf, inertial, block);
+  EXPECT_NEAR(body(parts_of(files, "r.urdf", bare), "base").mass_kg, 6.0, 1e-9);
+  EXPECT_THAT(
+      doubts(bare),
+      testing::Contains(HasSubstr("filled with water, 1000 kg/m3; give them mass and inertia: base")));
+  // What only shows weighs nothing, and is no matter.
+  const std::string shown =
+      with(urdf, "</robot>",
+           fixed_link("imu", "base", with(with(block, "collision", "visual"), "/collision", "/visual")));
+  EXPECT_NEAR(total_kg(parts_of(files, "r.urdf", shown)), 4.2, 1e-12);
+  EXPECT_THAT(parts_of(files, "r.urdf", shown).notes.text(), Not(HasSubstr("imu:")));
+  EXPECT_THAT(parts_of(files, "r.urdf", shown).notes.text(), Not(HasSubstr("water")));
+}
+
+TEST(Masses, OfARootThatAreZeroAreThoseOfItsShapesAsThoseOfLegs) {
+  const Files files;
+  const std::string urdf = with(with(urdf_with_effort(), R"(<mass value="3"/>)", R"(<mass value="0"/>)"),
+                                "</inertial>", "</inertial>" + block);
+  const ModelParts parts = parts_of(files, "r.urdf", urdf);
+  EXPECT_NEAR(body(parts, "base").mass_kg, 6.0, 1e-9);
+  EXPECT_NEAR(body(parts, "base").inertia_kg_m2.x + body(parts, "base").inertia_kg_m2.y +
+                  body(parts, "base").inertia_kg_m2.z,
+              6.0 / 6.0 * (0.09 + 0.04 + 0.01), 1e-9);
+  EXPECT_THAT(parts.notes.text(), HasSubstr("filled with water, 1000 kg/m3: base"));
+  // Scenery is none of the robot.
+  const ModelParts scene =
+      parts_of(files, "m.xml",
+               with(one_leg_xml, "<worldbody>",
+                    R"(<worldbody><body name="wall"><geom type="box" size="1 1 1" mass="0"/></body>)"));
+  EXPECT_THAT(scene.notes.text(), Not(HasSubstr("water")));
+}
+
 TEST(MasslessLinks, MoveTheLinkBehindThemAsBefore) {
   const Files files;
   // The same limb with a hub of next to no mass, which stays a body of its own.

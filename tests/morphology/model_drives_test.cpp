@@ -107,13 +107,13 @@ TEST(ModelDrives, CountAPassiveSpringFromTheStartPose) {
 
 TEST(ModelDrives, NameActuatorsThatAreNoServo) {
   const Files files;
-  const std::string more = R"(<actuator><motor name="boost" joint="FL_hip"/><velocity joint="FL_knee"/>
+  const std::string more = R"(<actuator><motor name="boost" joint="FL_hip"/><motor joint="FL_knee"/>
       <motor name="jet" site="nozzle" gear="0 0 1 0 0 0"/></actuator>)";
   const std::string notes =
       guessed(files, model_text(four_legs(), "<freejoint/>", R"(<site name="nozzle"/>)", leg_motors + more))
           .notes;
-  EXPECT_THAT(
-      notes, HasSubstr("left out  actuators beside the first of their joint: 'boost' ('FL_hip'), 'FL_knee'"));
+  EXPECT_THAT(notes,
+              HasSubstr("left out  actuators beside another of their joint: 'boost' ('FL_hip'), 'FL_knee'"));
   EXPECT_THAT(notes, HasSubstr("left out  actuators that act on a site, a slider-crank or a body: 'jet'"));
 }
 

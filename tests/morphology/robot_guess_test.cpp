@@ -17,8 +17,10 @@
 namespace amble::morphology {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using tests::four_legs;
 using tests::model_text;
 using tests::SmallModel;
@@ -225,11 +227,89 @@ TEST(RobotGuess, GivesJointsWithoutMotorsTwiceTheTorqueThatBearsTheWeight) {
   EXPECT_NEAR(servo.max_torque_nm, 2 * 5.2 * 9.81 * 0.41 / 4, 0.01);
 }
 
-TEST(RobotGuess, TakesFrictionFromTheFootAndSoftnessFromTheMass) {
+TEST(RobotGuess, TakesSoftnessFromTheMass) {
   const Files files;
-  const robot::RobotSpec robot = load(files, model_of("head"));
-  EXPECT_EQ(robot.contact.friction, 0.7);
-  EXPECT_NEAR(robot.contact.cfm_s_per_kg, 1e-4 * 5.4 / 5.4, 2e-6);
+  EXPECT_NEAR(load(files, model_of("head")).contact.cfm_s_per_kg, 1e-4 * 5.4 / 5.4, 2e-6);
+}
+
+TEST(RobotGuess, TakesFrictionFromFootAndFloorAsMujocoDoes) {
+  const Files files;
+  const std::string text = model_of("head").text, floor = R"(<geom type="plane" size="9 9 1")";  // feet: 0.7
+  const auto of = [&](const std::string& of_floor, const std::string& behind = "") {
+    const std::string model = with(with(text, floor, floor + of_floor), "</mujoco>", behind + "</mujoco>");
+    return guess(files, {"floor", "xml", model, 4, 8, 1}).toml;
+  };
+  EXPECT_THAT(of(R"( friction="0.5")"),
+              HasSubstr("friction = 0.7  # the greater of the first foot's, 0.7, and the floor's, 0.5"));
+  EXPECT_THAT(of(R"( friction="1.5")"), HasSubstr("friction = 1.5  # the greater"));
+  EXPECT_THAT(of(R"( friction="0.5" priority="1")"),
+              HasSubstr("friction = 0.5  # of the floor, which has the "
+                        "higher priority; the first foot has 0.7"));
+  EXPECT_THAT(of(R"( friction="1.5" priority="-1")"), HasSubstr("friction = 0.7  # of the first foot"));
+  // A plane that nothing touches is no floor.
+  for (const std::string& without :
+       {with(text, floor + "/>", ""), with(text, floor, floor + R"( contype="0" conaffinity="0")")})
+    EXPECT_THAT(guess(files, {"floor", "xml", without, 4, 8, 1}).toml,
+                HasSubstr("friction = 0.7  # of the first foot in the model, which has no floor"));
+}
+
+TEST(RobotGuess, CommandsWhatActuatorsTakeAsTargets) {
+  const Files files;
+  const auto of = [&](const std::string& attributes) {
+    return guess(files, {"ranges", "xml",
+                         model_text(four_legs(), "<freejoint/>", "",
+                                    tests::motors("position kp=\"40\" " + attributes)),
+                         4, 8, 0})
+        .toml;
+  };
+  const std::string narrow = of(R"(ctrllimited="true" ctrlrange="-0.3 0.4")");
+  EXPECT_THAT(narrow, HasSubstr("knee = [-0.3, 0.4]\nhip = [-0.3, 0.4]"));
+  EXPECT_THAT(narrow, HasSubstr("within ctrlrange of position actuators"));
+  EXPECT_THAT(of(R"(ctrllimited="true" ctrlrange="-0.6 0.8" gear="2")"), HasSubstr("knee = [-0.3, 0.4]"));
+  EXPECT_THAT(of(R"(ctrllimited="true" ctrlrange="-0.6 0.8" gear="-2")"), HasSubstr("knee = [-0.4, 0.3]"));
+  EXPECT_THAT(of(R"(ctrllimited="true" ctrlrange="0 1.5")"), HasSubstr("knee = [0, 0.8]"));
+  EXPECT_THAT(of(R"(ctrllimited="true" ctrlrange="0.2 0.5")"), HasSubstr("knee = [0, 0.5]"))
+      << "with the start";
+  for (const char* wide :
+       {R"(ctrllimited="true" ctrlrange="-3 3")", R"(ctrllimited="false" ctrlrange="-0.3 0.4")"})
+    EXPECT_THAT(of(wide), AllOf(HasSubstr("knee = [-0.8, 0.8]"), Not(HasSubstr("ctrlrange")))) << wide;
+}
+
+TEST(RobotGuess, CommandsWithinTheSoftLimitsOfAUrdf) {
+  const Files files;
+  SmallModel model = model_of("effort");
+  model.text = with(
+      model.text, R"(<dynamics damping="0.3")",
+      R"(<safety_controller k_velocity="1" soft_lower_limit="-0.2" soft_upper_limit="0.4"/><dynamics damping="0.3")");
+  const RobotGuess guessed = guess(files, model);
+  EXPECT_THAT(guessed.toml, HasSubstr("[command.left]\nhip = [-0.2, 0.4]"));
+  EXPECT_THAT(guessed.toml, HasSubstr("within the soft limits of safety controllers (left_hip_joint)"));
+  ReadingNotes notes;
+  load_robot(files.write("effort.toml", guessed.toml), &notes);
+  EXPECT_THAT(notes.text(), HasSubstr("left out  safety controllers"));
+}
+
+TEST(RobotGuess, FallsBelowACentreOfMassThatIsBelowTheGround) {
+  const Files files;
+  SmallModel model = model_of("effort");
+  model.text = with(model.text, R"(<inertial><mass value="3"/>)",
+                    R"(<inertial><origin xyz="0 0 -4"/><mass value="3"/>)");
+  const robot::RobotSpec robot = load(files, model);
+  EXPECT_LT(robot.fall_height_m, robot.bodies[0].position_m.z - 4.0);
+  EXPECT_GT(robot.fall_height_m, robot.bodies[0].position_m.z - 5.0);
+}
+
+TEST(RobotGuess, RefusesLegsOfHundredsOfMetres) {
+  const Files files;
+  const auto of = [&](double knee_m) {
+    std::string text = model_of("effort").text;
+    for (int side = 0; side < 2; ++side)
+      text = with(text, "<origin xyz=\"0 0 -0.2\"/><axis",
+                  fmt::format("<origin xyz=\"0 0 {}\"/> <axis", knee_m));
+    return files.error_of([&] { guess(files, {"giant", "urdf", text, 2, 4, 0}); });
+  };
+  EXPECT_EQ(of(-20.0), "accepted");
+  EXPECT_THAT(of(-200.0), HasSubstr("giant.urdf: its legs are 200 m long, for which amble has no settings"));
 }
 
 TEST(RobotGuess, AsksForLegsWhereNoneTouchTheGround) {

@@ -105,6 +105,47 @@ TEST_F(Servos, OfAnMjcfThatAreTooStrongForTheRobotAreAskedForTheirUnit) {
   EXPECT_THAT(doubts(""), Not(Contains(HasSubstr("are they in kg·cm"))));
 }
 
+TEST_F(Servos, OfActuatorsInTheFrameOfTheParentAreThoseOfTheirJoint) {
+  const auto of = [&](const std::string& text) {
+    const std::string toml = guess_robot(compile_model(files_.write("m.xml", text)), "m.xml").toml;
+    return toml.substr(toml.find("[servo]"));
+  };
+  const std::string text = mjcf_with_actuators(R"(forcerange="-3 3" kv="0.4")");
+  EXPECT_EQ(of(all(text, "<position joint=", "<position jointinparent=")), of(text));
+  EXPECT_THAT(of(text), AllOf(HasSubstr("max_torque_nm = 3"), HasSubstr("kd_nm_s_per_rad = 0.4")));
+}
+
+TEST_F(Servos, OfAPositionActuatorHaveTheDampingOfAVelocityActuatorBesideIt) {
+  const std::string text = mjcf_with_actuators(R"(forcerange="-3 3")");
+  std::string behind = text, before = text;
+  for (const char* joint : {"hip", "knee"})
+    for (const char* leg : {"fl", "fr", "rl", "rr"}) {
+      const std::string velocity = fmt::format(R"(<velocity joint="{}_{}" kv="0.7"/>)", leg, joint);
+      behind = with(behind, "</actuator>", velocity + "</actuator>");
+      before = with(before, "<actuator>", "<actuator>" + velocity);
+    }
+  for (const std::string& both : {behind, before}) {
+    const ModelFile file = compile_model(files_.write("m.xml", both));
+    EXPECT_THAT(guess_robot(file, "m.xml").toml,
+                AllOf(HasSubstr("kp_nm_per_rad = 20"), HasSubstr("kd_nm_s_per_rad = 0.7")));
+    EXPECT_THAT(extract_parts(file).notes.text(), Not(HasSubstr("beside another")));
+  }
+}
+
+TEST_F(Servos, OfAnUnevenRangeOfForceHaveItsWeakerSideAndAreNamed) {
+  const auto of = [&](const std::string& attributes) {
+    return guess_robot(compile_model(files_.write("m.xml", mjcf_with_actuators(attributes))), "m.xml");
+  };
+  const auto named = Contains(AllOf(HasSubstr("stronger to one side"), HasSubstr("fl_hip (")));
+  for (const char* range : {R"(forcerange="-1 5")", R"(forcerange="-5 1")"}) {
+    EXPECT_THAT(of(range).toml, HasSubstr("max_torque_nm = 1\n")) << range;
+    EXPECT_THAT(of(range).toml, HasSubstr("torque: the weaker side of the actuator's force range"));
+    EXPECT_THAT(of(range).doubts, named) << range;
+  }
+  EXPECT_THAT(of(R"(forcerange="0 5")").toml, HasSubstr("max_torque_nm = 5\n")) << "it has but one side";
+  EXPECT_THAT(of(R"(forcerange="-5 5")").doubts, Not(named));
+}
+
 TEST_F(Servos, ThatDifferFromACorrectedUrdfAreNoted) {
   const std::string toml = guess(urdf_).toml;
   EXPECT_THAT(notes_on(toml, urdf_), AllOf(Not(HasSubstr("effort")), Not(HasSubstr("velocity"))));
