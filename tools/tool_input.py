@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tomllib
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(sys.argv[0])))  # of the tool that runs, where tools/ may be a link
 NAME = "tools/" + os.path.basename(sys.argv[0])
 AMBLE = os.environ.get("AMBLE", os.path.join(ROOT, "build/release/src/cli/amble"))
 
