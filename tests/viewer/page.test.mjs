@@ -218,8 +218,8 @@ test("render-video.mjs makes a picture, and says in a line what is missing", () 
   assert.equal(made.status, 0, made.stderr);
   assert.equal(readFileSync(picture).subarray(1, 4).toString(), "PNG");
   for (const [environment, out, expected] of [
-    [{ PATH: "" }, video, /^render-video: ffmpeg is missing .*\n$/],
-    [{ CHROMIUM: "/no/browser" }, picture, /^render-video: \/no\/browser is missing .*\n$/],
+    [{ PATH: "" }, video, /^tools\/render-video.mjs: ffmpeg is missing .*\n$/],
+    [{ CHROMIUM: "/no/browser" }, picture, /^tools\/render-video.mjs: \/no\/browser is missing .*\n$/],
   ]) {
     const failed = render(environment, out);
     assert.equal(failed.status, 2);
