@@ -107,8 +107,7 @@ std::string place_of(const ledger::StudySpec& study, std::size_t index, std::str
   std::string key = fmt::format("conditions[{}].config", index);
   if (!condition.robot.empty() && names(condition.robot))
     key = fmt::format("conditions[{}].robot", index);
-  else if (!condition.steering.empty() &&
-           (mistake.starts_with("steering:") || names("controller.differential")))
+  else if (mistake.starts_with("steering:"))
     key = fmt::format("conditions[{}].steering", index);
   else if (std::ranges::any_of(condition.settings, names))
     key = fmt::format("conditions[{}].settings", index);
