@@ -31,6 +31,8 @@ struct Controllers {
         extra(task->problem().architecture->extra_senses()),
         rate_hz(static_cast<float>(1.0 / task->problem().trial.timestep_s)),
         start_yaw_rad(yaw_of_start(task->problem().robot)),
+        headings(to_index(count),
+                 trial::ToldHeading(static_cast<float>(task->problem().controller.sensing.heading.lead_rad))),
         begun(to_index(count)) {
     sensors.joint_speed_rad_s = LaneArray(joints, count);
     sensors.yaw_rate_rad_s = LaneArray(1, count);
@@ -38,7 +40,7 @@ struct Controllers {
     sensors.foot_load_n = LaneArray(legs, count);
     sensors.command = LaneArray(2, count);
     sensors.command_stop = LaneArray(1, count);
-    sensors.heading_error_rad = wanted_yaw_rad = LaneArray(1, count);
+    sensors.heading_error_rad = LaneArray(1, count);
     for (const neat::Genome& genome : genomes) parameters.push_back(task->problem().decode(genome));
     reset({});
   }
@@ -82,11 +84,9 @@ struct Controllers {
     const auto timestep_s = static_cast<float>(task->problem().trial.timestep_s);
     for (int lane = 0; lane < count; ++lane) {
       const float yaw_rad = sensors.attitude_rad.at(2, lane);
-      float& wanted_rad = wanted_yaw_rad.at(0, lane);
-      if (!begun[to_index(lane)]) wanted_rad = yaw_rad;
-      sensors.heading_error_rad.at(0, lane) = trial::wrapped_rad(wanted_rad - yaw_rad);
+      if (!begun[to_index(lane)]) headings[to_index(lane)].face(yaw_rad);
       const float turned_rad = sensors.command.at(1, lane) * timestep_s;
-      wanted_rad = trial::wrapped_rad(wanted_rad + turned_rad);
+      sensors.heading_error_rad.at(0, lane) = headings[to_index(lane)].error_rad(yaw_rad, turned_rad);
     }
   }
   void tick() {
@@ -101,10 +101,11 @@ struct Controllers {
   std::vector<std::unique_ptr<controllers::Parameters>> parameters;
   std::unique_ptr<controllers::Batch> batch;
   robot::SensorFrame sensors;
-  LaneArray targets_rad, wanted_yaw_rad;
+  LaneArray targets_rad;
   std::shared_ptr<std::vector<float>> shown;  ///< count × joints; views keep it
   robot::ExtraSenses extra;
   float rate_hz, start_yaw_rad;
+  std::vector<trial::ToldHeading> headings;
   std::vector<bool> begun;  ///< by lane: whether there was a tick
   CallLock lock;
 };

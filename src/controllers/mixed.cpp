@@ -158,7 +158,8 @@ MixedArchitecture::MixedArchitecture(const SupgSettings& supg, const MixedSettin
     : SupgArchitecture(without_sensors(supg), substrate, robot, timestep_s, sensing,
                        {std::string(bias_property), std::string(time_constant_property)}),
       mixed_(mixed),
-      weight_range_(substrate.weight_range) {
+      weight_range_(substrate.weight_range),
+      heading_lead_rad_(sensing.heading.lead_rad) {
   net_ = std::make_shared<const MixedNet>(
       make_mixed_net(layout(), joints().of_legs, types(), robot, sensor_models(sensing, robot, timestep_s)));
   if (!net_->neurons.empty() && !(layout().lowest(time_constant_property) > 0.0))
@@ -243,6 +244,7 @@ std::string MixedArchitecture::parameters_json(const Parameters& parameters) con
   const MixedParameters& mixed = as_mixed(parameters);
   using Json = nlohmann::ordered_json;
   Json json = Json::parse(SupgArchitecture::parameters_json(parameters));
+  if (heading_lead_rad_ > 0.0) json["heading_lead_rad"] = heading_lead_rad_;
   json["coordinates"] = layout().coordinates();
   json["nodes"] = Json::array();
   std::size_t neuron = 0, sensor = 0;

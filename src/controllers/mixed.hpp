@@ -105,7 +105,7 @@ class MixedArchitecture : public SupgArchitecture {
   double weight_gain(substrate::Port port) const;
 
   MixedSettings mixed_;
-  double weight_range_;
+  double weight_range_, heading_lead_rad_;
   std::shared_ptr<const MixedNet> net_;
 };
 

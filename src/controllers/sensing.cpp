@@ -78,8 +78,17 @@ void SensorSettings::describe(io::SettingsVisitor& visitor) {
                  {"time after each reading in which it stays as it is, s; a whole number of ticks"});
 }
 
+void HeadingSettings::describe(io::SettingsVisitor& visitor, std::string_view lead_key) {
+  visitor.number(
+      lead_key, lead_rad, {0.0, 3.0},
+      {"so far at most the heading that commanded turns lead to is ahead of a robot that does not "
+       "turn as it is told, rad; 0: without limit, so that from half a turn on the short way is to "
+       "the other side"});
+}
+
 void SensingSettings::describe(io::SettingsVisitor& visitor) {
   visitor.tables("sensors", sensors, {"sensors that are not read at once and exactly"});
+  visitor.table("heading", heading, {.what = "the heading of heading_error", .defaults_are_implied = true});
 }
 
 bool SensingSettings::is_noisy() const {

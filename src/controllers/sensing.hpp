@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -24,9 +25,19 @@ struct SensorSettings {
   friend bool operator==(const SensorSettings&, const SensorSettings&) = default;
 };
 
+/// How the heading is kept that commanded turns lead to.
+struct HeadingSettings {
+  /// rad, 0 … 3: so far at most it is ahead of a robot that does not turn as it is told; 0: without limit
+  double lead_rad = 0.0;
+
+  void describe(io::SettingsVisitor& visitor, std::string_view lead_key = "lead_rad");
+  friend bool operator==(const HeadingSettings&, const HeadingSettings&) = default;
+};
+
 /// How sensors are read; those that are not named, at once and exactly.
 struct SensingSettings {
   std::vector<SensorSettings> sensors;
+  HeadingSettings heading = {};
 
   void describe(io::SettingsVisitor& visitor);
   friend bool operator==(const SensingSettings&, const SensingSettings&) = default;

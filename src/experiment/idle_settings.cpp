@@ -131,6 +131,10 @@ void find_unread_sensors(const Problem& problem, std::vector<std::string>& idle)
       idle.push_back(fmt::format("controller.sensing.sensors[{}] has no effect: the controller reads no {}",
                                  i, named[i].of));
   }
+  if (problem.controller.sensing.heading.lead_rad > 0.0 &&
+      !problem.architecture->reads({.kind = substrate::Sensor::Kind::heading_error}))
+    idle.push_back(
+        "controller.sensing.heading.lead_rad has no effect: the controller reads no heading_error");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -59,8 +60,7 @@ std::optional<io::TomlDocument> document_of(const std::string& part, const std::
 
 std::string expected_keys() {
   const io::SettingsColumn gains{
-      .title = {},
-      .describe = [settings = controllers::DifferentialSettings()](io::SettingsVisitor& visitor) mutable {
+      .title = {}, .describe = [settings = HandSteering()](io::SettingsVisitor& visitor) mutable {
         settings.describe(visitor);
       }};
   return fmt::format("{}", fmt::join(io::setting_keys(gains), ", "));
@@ -93,8 +93,13 @@ void tell(Problem& problem, const std::string& line, const std::string& what) {
   }
 }
 
-controllers::DifferentialSettings parse_differential(const std::string& text, const std::string& what) {
-  controllers::DifferentialSettings settings;
+void HandSteering::describe(io::SettingsVisitor& visitor) {
+  gains.describe(visitor);
+  heading.describe(visitor, "heading_lead_rad");
+}
+
+HandSteering parse_steering(const std::string& text, const std::string& what) {
+  HandSteering settings;
   std::set<std::string> given;
   for (const std::string& part : parts_of(text)) {
     const auto document = document_of(part, what);
@@ -112,16 +117,29 @@ controllers::DifferentialSettings parse_differential(const std::string& text, co
       throw UserError(without_line(error.what(), what));
     }
   }
-  if (!settings.any())
+  if (!settings.gains.any())
     fail(ExitCode::bad_input,
          "{}: \"{}\" steers nothing: expected turn_gain, full_speed_m_s or both, e.g. {}", what,
          io::printable(text), example);
   return settings;
 }
 
+void steer_by_hand(Problem& problem, const HandSteering& steering) {
+  Problem changed = problem;
+  if (steering.heading.lead_rad > 0.0) changed.controller.sensing.heading = steering.heading;
+  changed.set_differential(steering.gains);
+  if (steering.heading.lead_rad > 0.0 &&
+      !changed.architecture->reads({.kind = substrate::Sensor::Kind::heading_error}))
+    fail_setting({"controller.differential.heading_lead_rad", "controller.differential.heading_gain"},
+                 "controller.differential.heading_lead_rad = {}: nothing reads a heading error; expected a "
+                 "heading_gain as well",
+                 steering.heading.lead_rad);
+  problem = std::move(changed);
+}
+
 void steer_by_hand(Problem& problem, const std::string& text, const std::string& what) {
   try {
-    problem.set_differential(parse_differential(text, what));
+    steer_by_hand(problem, parse_steering(text, what));
   } catch (const SettingError& error) {
     std::string message = error.what();
     constexpr std::string_view table = "controller.differential.";  // which nobody has typed here

@@ -35,10 +35,26 @@ static void update_heading($p_state *state, const $p_sensors *in) {
     state->wanted_yaw_rad = within_half_a_turn(in->yaw_rad);
   }
   state->heading_error_rad = within_half_a_turn(state->wanted_yaw_rad - in->yaw_rad);
-  state->wanted_yaw_rad = within_half_a_turn(state->wanted_yaw_rad + turned_rad);
+$lead  state->wanted_yaw_rad = within_half_a_turn(state->wanted_yaw_rad + turned_rad);
 }
 
 )";
+
+constexpr std::string_view lead_text =
+    R"(  if (state->heading_error_rad > $most || state->heading_error_rad < -$most) { /* the robot turns less than told */
+    state->heading_error_rad = state->heading_error_rad > 0.0f ? $most : -$most;
+    state->wanted_yaw_rad = within_half_a_turn(in->yaw_rad + state->heading_error_rad);
+  }
+)";
+
+/// update_heading() with its numbers.
+std::string heading_source(const ControllerTables& tables) {
+  const std::string lead = tables.heading_lead_rad > 0.0f
+                               ? replaced(lead_text, "$most", c_float(tables.heading_lead_rad))
+                               : std::string();
+  return replaced(replaced(heading_text, "$lead", lead), "$tick",
+                  c_float(static_cast<float>(tables.timestep_s)));
+}
 
 }  // namespace
 
@@ -53,8 +69,7 @@ void add_command_state(const ControllerTables& tables, CText& text) {
 void add_commands(const ControllerTables& tables, CText& text) {
   if (!tables.reads_commands()) return;
   text.block(set_text);
-  if (tables.reads_heading_error())
-    text.block(replaced(heading_text, "$tick", c_float(static_cast<float>(tables.timestep_s))));
+  if (tables.reads_heading_error()) text.block(heading_source(tables));
 }
 
 std::string c_command_init(const ControllerTables& tables) {

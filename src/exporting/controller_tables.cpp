@@ -347,11 +347,13 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
          "controller.switching cannot be exported; expected a champion of one genome, as `amble repertoire "
          "RUN --cell` writes");
   const auto parameters = problem.decode(genome);
-  ControllerTables tables{.kind = architecture.name(),
-                          .timestep_s = problem.trial.timestep_s,
-                          .joints = commanded_joints(problem.robot),
-                          .legs = {},
-                          .parts = {}};
+  ControllerTables tables{
+      .kind = architecture.name(),
+      .timestep_s = problem.trial.timestep_s,
+      .joints = commanded_joints(problem.robot),
+      .legs = {},
+      .parts = {},
+      .heading_lead_rad = static_cast<float>(problem.controller.sensing.heading.lead_rad)};
   for (const robot::Leg& leg : problem.robot.legs) tables.legs.push_back(leg.name);
   const auto* const neural = dynamic_cast<const controllers::NeuralParameters*>(parameters.get());
   if (const auto* const supg = dynamic_cast<const SupgParameters*>(parameters.get())) {

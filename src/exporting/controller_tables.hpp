@@ -184,6 +184,7 @@ struct ControllerTables {
   std::vector<std::string> legs;
   std::variant<SupgTables, NeuralTables, OscillatorTables> parts;
   std::optional<Differential> differential = {};
+  float heading_lead_rad = 0.0f;  ///< controllers::HeadingSettings
 
   /// Which sensors it reads.
   bool reads_angles() const;

@@ -51,14 +51,14 @@ void add_told(const ControllerTables& tables, Json& list) {
                     {"order", "speed, turn"},
                     {"unit", "m/s, rad/s"},
                     {"meaning", "what it is told: speed along its forward axis, turn to the left"}});
-  if (tables.reads_heading_error())
-    list.push_back({{"name", "heading_error_rad"},
-                    {"count", 1},
-                    {"order", ""},
-                    {"unit", "rad"},
-                    {"meaning",
-                     "how far the first yaw plus the sum of all commanded turns before this tick, times the "
-                     "tick, is to the left of the yaw"}});
+  if (!tables.reads_heading_error()) return;
+  std::string meaning =
+      "how far the first yaw plus the sum of all commanded turns before this tick, times the tick, is to the "
+      "left of the yaw";
+  if (tables.heading_lead_rad > 0.0f)
+    meaning += "; beyond heading_lead_rad to either side, the sum is changed so that it is just that";
+  list.push_back(
+      {{"name", "heading_error_rad"}, {"count", 1}, {"order", ""}, {"unit", "rad"}, {"meaning", meaning}});
 }
 
 Json sensors_json(const ControllerTables& tables) {
@@ -291,6 +291,8 @@ Json oscillators_json(const OscillatorTables& oscillators, const ControllerTable
 Json controller_json(const ControllerTables& tables) {
   Json json{{"kind", tables.kind}, {"timestep_s", tables.timestep_s}, {"rate_hz", tables.rate_hz()},
             {"legs", tables.legs}, {"joints", joints_json(tables)},   {"sensors", sensors_json(tables)}};
+  if (tables.reads_heading_error() && tables.heading_lead_rad > 0.0f)
+    json["heading_lead_rad"] = tables.heading_lead_rad;
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
     json["supg"] = supg_json(*supg, tables);
   else if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))

@@ -39,7 +39,8 @@ struct Actuator {
   double gain = 0.0, kp = 0.0, kv = 0.0;
   double max_torque_nm = 0.0;  ///< to the weaker side, if it has two; 0: not limited
   std::string uneven;          ///< its range of force, if it is not the same to both sides
-  double control_limit = 0.0;  ///< 0: not limited
+  double control_limit = 0.0;  ///< to the weaker side likewise; 0: not limited
+  std::string uneven_control;  ///< what its range of control amounts to, if it is not the same to both sides
   bool is_geared = false;      ///< its forces are not its joint's torques
 };
 
@@ -60,7 +61,10 @@ Actuator read(const mjModel& model, int a) {
   }
   if (model.actuator_ctrllimited[a] != 0) {
     const mjtNum* range = model.actuator_ctrlrange + 2 * a;
-    actuator.control_limit = std::max(std::abs(range[0]), std::abs(range[1]));
+    actuator.control_limit = weaker_side(range[0], range[1]);
+    if (range[0] != -range[1])
+      actuator.uneven_control =
+          fmt::format("{:.4g} to {:.4g}", range[0] * actuator.gain, range[1] * actuator.gain);
   }
   return actuator;
 }
@@ -94,7 +98,7 @@ class ServoGuesser {
       ServoGuess guessed = actuator.kp > 0.0   ? of_position(actuator, hint, damping)
                            : actuator.kv > 0.0 ? of_velocity(actuator, hint)
                                                : of_motor(actuator, hint, damping);
-      guessed.uneven_force = actuator.uneven;
+      if (guessed.uneven_force.empty()) guessed.uneven_force = actuator.uneven;
       if (actuator.kp > 0.0) guessed.target_range_rad = target_range(model, actuators.front());
       return guessed;
     }
@@ -198,7 +202,10 @@ class ServoGuesser {
     const bool is_by_control = actuator.max_torque_nm == 0.0 && by_control > 0.0;
     if (is_by_control) {
       most = by_control;
-      source = "the actuator's control range × gear";
+      source = actuator.uneven_control.empty()
+                   ? "the actuator's control range × gear"
+                   : fmt::format("the weaker side of the actuator's control range × gear, {}",
+                                 actuator.uneven_control);
     }
     const double kp = bearing_nm_ / bearing_error_rad;
     const double kd = std::max(0.0, damping_time_s * kp - damping);
@@ -208,7 +215,8 @@ class ServoGuesser {
                 "joint's damping, {} s × kp",
                 source, bearing_error_rad, damping_time_s),
             .torque_is_guessed = !is_by_control && !has_limit(actuator, hint),
-            .lacks_gear = is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0};
+            .lacks_gear = is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0,
+            .uneven_force = is_by_control ? actuator.uneven_control : std::string()};
   }
 
   const ModelFile& file_;

@@ -83,7 +83,7 @@ void check_gaits(const ledger::StudySpec& study, std::size_t index, const Planne
 /// steered by hand where they are. Throws UserError: it has no noise.
 PlannedTest of_condition(const ledger::StudySpec& study, std::size_t test_index, PlannedTest test,
                          const PlannedCondition& condition,
-                         const std::optional<controllers::DifferentialSettings>& steering) {
+                         const std::optional<experiment::HandSteering>& steering) {
   if (test.spec.level == record::own_noise) {
     test.noise = condition.config.noise;
     test.noise.first_undisturbed = false;
@@ -161,10 +161,10 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
   const int generations = spec.generations > 0 ? spec.generations : study.generations;
   if (generations > 0) overrides.generations = generations;
   PlannedCondition condition{.spec = spec, .config = {}, .robot = {}, .tests = {}, .hash = {}};
-  std::optional<controllers::DifferentialSettings> steering;
+  std::optional<experiment::HandSteering> steering;
   try {
     condition.config = experiment::load_config(spec.config, overrides);
-    if (!spec.steering.empty()) steering = experiment::parse_differential(spec.steering, "steering");
+    if (!spec.steering.empty()) steering = experiment::parse_steering(spec.steering, "steering");
     check_overruled(overrides.assignments, generations > 0);
     condition.robot = experiment::load_robot(condition.config);
   } catch (const UserError& error) {

@@ -121,7 +121,7 @@ experiment::Problem PlannedTest::problem(experiment::Problem home) const {
   if (ground) home.set_ground(*ground);
   if (damage) home.set_damage(*damage);
   if (command) home.set_commands(*command);
-  if (steering) home.set_differential(*steering);
+  if (steering) experiment::steer_by_hand(home, *steering);
   return home;
 }
 
@@ -136,7 +136,9 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (ground) definition["ground"] = io::settings_to_json(*ground);
   if (damage) definition["damage"] = io::settings_to_json(*damage);
   if (command) definition["command"] = io::settings_to_json(*command);
-  if (steering) definition["steering"] = io::settings_to_json(*steering);
+  if (steering) definition["steering"] = io::settings_to_json(steering->gains);
+  if (steering && steering->heading.lead_rad > 0.0)
+    definition["heading"] = io::settings_to_json(steering->heading);
   if (spec.energy) definition["energy"] = true;
   if (spec.seam) definition["seam"] = true;
   return hex(hash_text(definition.dump()));

@@ -7,6 +7,7 @@
 
 #include "amble/damage/settings.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/steering.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/io/own_settings.hpp"
 #include "amble/ledger/record.hpp"
@@ -24,7 +25,7 @@ struct PlannedTest {
   std::optional<damage::Settings> damage = {};         ///< that of TestSpec::damage
   std::optional<trial::CommandSettings> command = {};  ///< that of TestSpec::command
   /// ConditionSpec::steering, in tests with a command.
-  std::optional<controllers::DifferentialSettings> steering = {};
+  std::optional<experiment::HandSteering> steering = {};
 
   /// The commit of a program: a result that another one measured is to be measured again. Empty: any will do.
   std::string measured_by = {};

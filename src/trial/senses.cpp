@@ -33,6 +33,16 @@ float wrapped_rad(float angle_rad) {
   return std::abs(once_rad) <= half_turn ? once_rad : std::remainder(once_rad, turn);
 }
 
+float ToldHeading::error_rad(float yaw_rad, float turned_rad) {
+  float error_rad = wrapped_rad(wanted_yaw_rad_ - yaw_rad);
+  if (lead_rad_ > 0.0f && std::abs(error_rad) > lead_rad_) {
+    error_rad = std::copysign(lead_rad_, error_rad);
+    wanted_yaw_rad_ = wrapped_rad(yaw_rad + error_rad);
+  }
+  wanted_yaw_rad_ = wrapped_rad(wanted_yaw_rad_ + turned_rad);
+  return error_rad;
+}
+
 Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s)
     : sensing_(sensing),
       rate_hz_(static_cast<float>(1.0 / timestep_s)),
@@ -41,6 +51,7 @@ Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double
       angle_before_rad_(sensors.joint_angle_rad),
       yaw_before_rad_(1, sensors.touch.lanes()) {
   const int lanes = sensors.touch.lanes();
+  for (Lane& lane : lanes_) lane.heading = ToldHeading(sensing.heading_lead_rad);
   read_ = sensors;
   if (sensing.extra.speed) read_.joint_speed_rad_s = LaneArray(sensors.joint_angle_rad.rows(), lanes);
   if (sensing.extra.torque) read_.joint_torque_nm = LaneArray(sensors.joint_angle_rad.rows(), lanes);
@@ -71,7 +82,7 @@ void Senses::load(int lane, const physics::Engine& engine, const Scenario* scena
 }
 
 void Senses::face(int lane, const physics::Engine& engine) {
-  lanes_[to_index(lane)].wanted_yaw_rad = engine.sensors().attitude_rad.at(yaw_row, lane);
+  lanes_[to_index(lane)].heading.face(engine.sensors().attitude_rad.at(yaw_row, lane));
 }
 
 const robot::SensorFrame& Senses::read(const physics::Engine& engine) {
@@ -125,10 +136,9 @@ void Senses::take_commands(const robot::SensorFrame& sensors) {
       read_.command_stop.at(0, lane) = command.is_stop() ? 1.0f : 0.0f;
     }
     if (!sensing_.extra.heading_error) continue;
-    read_.heading_error_rad.at(0, lane) =
-        wrapped_rad(slot.wanted_yaw_rad - sensors.attitude_rad.at(yaw_row, lane));
     const float turned_rad = command.turn_rad_s * timestep_s_;
-    slot.wanted_yaw_rad = wrapped_rad(slot.wanted_yaw_rad + turned_rad);
+    read_.heading_error_rad.at(0, lane) =
+        slot.heading.error_rad(sensors.attitude_rad.at(yaw_row, lane), turned_rad);
   }
 }
 

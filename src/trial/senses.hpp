@@ -16,6 +16,7 @@ namespace amble::trial {
 struct Sensing {
   robot::ExtraSenses extra;                      ///< rows that the controller reads beside those of engines
   std::vector<controllers::SensorModel> models;  ///< noise, delay, dead time
+  float heading_lead_rad = 0.0f;                 ///< controllers::HeadingSettings
 
   /// Whether controllers may read something else than the engine's frame.
   bool any() const { return extra.any() || !models.empty(); }
@@ -30,6 +31,22 @@ float turning_rate_of(float before_rad, float now_rad, float rate_hz);
 /// An angle as one of at most half a turn, in single precision; of what is not finite NaN.
 float wrapped_rad(float angle_rad);
 
+/// The heading that commands lead to.
+class ToldHeading {
+ public:
+  /// `lead_rad`: so far at most it is ahead of the robot's; 0: without limit.
+  explicit ToldHeading(float lead_rad = 0.0f) : lead_rad_(lead_rad) {}
+
+  /// It begins with the robot's own.
+  void face(float yaw_rad) { wanted_yaw_rad_ = yaw_rad; }
+  /// How far it is to the left of the robot's, −π … π rad; once per tick, at whose end it has turned by the
+  /// commanded rate times the tick, `turned_rad`.
+  float error_rad(float yaw_rad, float turned_rad);
+
+ private:
+  float lead_rad_, wanted_yaw_rad_ = 0.0f;
+};
+
 /// The sensors of a runner's robots as they are read: rates and torques that engines do not put into their
 /// frames, and then for each reading, in this order: its delay (before so much time has gone by, the value at
 /// the start), its dead time (it is renewed in the first tick and then every hold_ticks ticks), and its
@@ -37,8 +54,7 @@ float wrapped_rad(float angle_rad);
 /// none. Scales are the controllers'. Rates and headings are those of true angles. A model of a sensor whose
 /// rows the controller does not ask for has no effect.
 ///
-/// The heading that commands lead to is the robot's own before the first tick, and turns by the commanded
-/// rate times the tick after each tick.
+/// The heading that commands lead to (ToldHeading) is the robot's own before the first tick.
 class Senses {
  public:
   /// `sensors` gives the number of lanes and rows. Torques and loads only of an engine that measures them.
@@ -61,7 +77,7 @@ class Senses {
   struct Lane {
     int tick = 0;
     const CommandSchedule* commands = nullptr;
-    float wanted_yaw_rad = 0.0f;
+    ToldHeading heading;
     std::optional<Stream> noise;
   };
   /// A sensor's ring buffer over the ticks of its delay, for all lanes, and its last readings.

@@ -55,6 +55,9 @@ TEST_F(SteeringOptions, GainsAreNamedAsTheyWereWritten) {
   expect_refused_gains("turn_gain = nan", "--steering: 'turn_gain' = nan: expected a number");
   expect_refused_gains("turn_gain = 1, turn_gain = 2", "--steering: turn_gain is given twice");
   expect_refused_gains("heading_gain = 1", "--steering: heading_gain = 1: without a turn_gain nothing turns");
+  expect_refused_gains("turn_gain = 1, heading_lead_rad = 1",
+                       "--steering: heading_lead_rad = 1: nothing reads a heading error; expected a "
+                       "heading_gain as well");
   expect_refused_gains("turn_gain = 1, joint_types = [\"toe\", \"a\"]",
                        "--steering: joint_types[0] = \"toe\": the robot has no joint type toe");
 }

@@ -8,11 +8,11 @@
 namespace amble::tests {
 namespace {
 
-using experiment::parse_differential;
+using experiment::parse_steering;
 
 std::string refusal(const std::string& text) {
   try {
-    parse_differential(text, "gains");
+    parse_steering(text, "gains");
   } catch (const UserError& error) {
     return error.what();
   }
@@ -23,15 +23,22 @@ TEST(HandSteering, GainsAreReadWithCommasSemicolonsOrLinesBetweenThem) {
   const controllers::DifferentialSettings two{.turn_gain = 1.5, .full_speed_m_s = 0.4};
   for (const char* const text : {"turn_gain = 1.5, full_speed_m_s = 0.4", "turn_gain=1.5;full_speed_m_s=0.4",
                                  " turn_gain = 1.5\nfull_speed_m_s = 0.4 "})
-    EXPECT_EQ(parse_differential(text, "gains"), two) << text;
+    EXPECT_EQ(parse_steering(text, "gains"), experiment::HandSteering{two}) << text;
 }
 
 TEST(HandSteering, WhatIsInBracketsAndQuotesIsOneValue) {
   const auto settings =
-      parse_differential("joint_types = [\"a,b\", 'c;d'], turn_gain = 2, about = \"middle\"", "gains");
+      parse_steering("joint_types = [\"a,b\", 'c;d'], turn_gain = 2, about = \"middle\"", "gains").gains;
   EXPECT_THAT(settings.joint_types, testing::ElementsAre("a,b", "c;d"));
   EXPECT_EQ(settings.turn_gain, 2.0);
   EXPECT_EQ(settings.about, controllers::SwingCentre::middle);
+}
+
+TEST(HandSteering, TheLeadOfTheHeadingIsGivenWithTheGains) {
+  EXPECT_EQ(parse_steering("turn_gain = 1.5, heading_gain = 1, heading_lead_rad = 0.5", "gains"),
+            (experiment::HandSteering{{.turn_gain = 1.5, .heading_gain = 1.0}, {.lead_rad = 0.5}}));
+  EXPECT_THAT(refusal("turn_gain = 1, heading_lead_rad = 4"),
+              testing::StartsWith("gains: 'heading_lead_rad' = 4: expected a number from 0 to 3"));
 }
 
 TEST(HandSteering, WhatIsWrongIsNamedWithoutATableThatNobodyWrote) {

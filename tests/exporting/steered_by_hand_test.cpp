@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "amble/experiment/steering.hpp"
 #include "amble/io/file.hpp"
 #include "tests/exporting/champions.hpp"
 #include "tests/exporting/compiled.hpp"
@@ -13,7 +14,7 @@
 namespace amble::tests {
 namespace {
 
-using controllers::DifferentialSettings;
+using experiment::HandSteering;
 using test::TemporaryFolder;
 
 /// Of each kind of controller those that hear nothing, and those that hear commands themselves; with other
@@ -43,19 +44,21 @@ TEST_P(EachWalker, CompilesAndPassesItsSelfTestWhateverTheGains) {
   experiment::Champion champion = evolve(GetParam());
   champion.problem.set_commands(
       {.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}, {0.3, 0.3}, {0.2, -0.3}, {}}});
-  for (const auto& gains :
-       {DifferentialSettings{.turn_gain = 2.0}, DifferentialSettings{.full_speed_m_s = 0.3},
-        DifferentialSettings{.turn_gain = 2.0, .heading_gain = 0.5},
-        DifferentialSettings{.turn_gain = 2.0,
+  for (const auto& [gains, heading] :
+       {HandSteering{{.turn_gain = 2.0}}, HandSteering{{.full_speed_m_s = 0.3}},
+        HandSteering{{.turn_gain = 2.0, .heading_gain = 0.5}},
+        HandSteering{{.turn_gain = 2.0, .heading_gain = 0.5}, {.lead_rad = 0.02}},
+        HandSteering{{.turn_gain = 2.0,
         .full_speed_m_s = 0.3,
         .heading_gain = 0.5,
         .change_s = 0.2,
-        .about = controllers::SwingCentre::middle}}) {
+        .about = controllers::SwingCentre::middle}}}) {
     SCOPED_TRACE(testing::Message() << "turn_gain = " << gains.turn_gain << ", heading_gain = "
                                     << gains.heading_gain << ", full_speed_m_s = " << gains.full_speed_m_s);
     const TemporaryFolder scratch;
-    champion.problem.set_differential(gains);
-    write_walker(scratch.path(), champion);
+    experiment::Champion steered = champion;
+    experiment::steer_by_hand(steered.problem, {gains, heading});
+    write_walker(scratch.path(), steered);
     ASSERT_EQ(compile(scratch.path(), "gcc", std::string(strict_c99), {}, "self"), "");
     EXPECT_EQ(run_shell("'" + (scratch / "self").string() + "'").out,
               "walker: 100 ticks, largest error 0 rad\n");
@@ -107,6 +110,40 @@ TEST(SteeredByHand, AYawThatIsCountedOnFromTurnToTurnIsAsGoodAsOneWithinHalfATur
   io::write_file(scratch / "turning.c", turning_main);
   ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags, scratch / "turning.c", "turning"), "");
   EXPECT_EQ(run_shell("'" + (scratch / "turning").string() + "'").out, "12.5, 0\n");
+}
+
+/// A walker that is told to turn left for ten seconds and cannot, and then right.
+constexpr std::string_view blocked_main = R"(#include <stdio.h>
+#include "walker.h"
+int main(void) {
+  walker_state state;
+  walker_sensors in = {0};
+  walker_targets targets;
+  int tick;
+  in.yaw_rad = 3.0f;
+  walker_init(&state);
+  walker_set_command(&state, 0.3f, 0.5f);
+  for (tick = 0; tick < 1000; ++tick) walker_step(&state, &in, &targets);
+  printf("%.3f ", (double)state.heading_error_rad);
+  walker_set_command(&state, 0.3f, -0.5f);
+  for (tick = 0; tick < 101; ++tick) walker_step(&state, &in, &targets);
+  printf("%.3f\n", (double)state.heading_error_rad);
+  return 0;
+}
+)";
+
+TEST(SteeredByHand, AHeadingIsAheadOfABlockedRobotByItsLeadAndComesBackAtOnce) {
+  const auto samples = walkers();
+  const auto plain = std::ranges::find(samples, "quadruped_supg", &Sample::name);
+  ASSERT_NE(plain, samples.end());
+  experiment::Champion champion = evolve(*plain);
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.5}}});
+  experiment::steer_by_hand(champion.problem, {{.turn_gain = 1.0, .heading_gain = 1.0}, {.lead_rad = 0.75}});
+  const TemporaryFolder scratch;
+  write_walker(scratch.path(), champion);
+  io::write_file(scratch / "blocked.c", blocked_main);
+  ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags, scratch / "blocked.c", "blocked"), "");
+  EXPECT_EQ(run_shell("'" + (scratch / "blocked").string() + "'").out, "0.750 0.250\n");
 }
 
 }  // namespace

@@ -175,13 +175,19 @@ TEST(RobotGuess, GivesAMotorAGainThatBearsTheWeight) {
   EXPECT_NEAR(servo.kp_nm_per_rad * 0.1, 5.2 * 9.81 * 0.41 / 4, 0.01);
 }
 
-TEST(RobotGuess, LimitsAMotorByTheFarEndOfItsControlRange) {
+TEST(RobotGuess, LimitsAMotorByTheWeakerSideOfItsControlRangeAsOfAForceRange) {
   const Files files;
-  for (const char* range : {"-3 1", "-1 3"}) {
+  for (const auto& [range, torque_nm] :
+       {std::pair{"-3 1", 2.0}, {"-1 3", 2.0}, {"0 3", 6.0}, {"-3 3", 6.0}}) {
     const std::string motor = fmt::format(R"(motor gear="2" ctrlrange="{}")", range);
     const SmallModel model{
         "lopsided", "xml", model_text(four_legs(), "<freejoint/>", "", tests::motors(motor)), 4, 8, 0};
-    EXPECT_EQ(load(files, model).joints[0].servo.max_torque_nm, 6.0) << range;
+    EXPECT_EQ(load(files, model).joints[0].servo.max_torque_nm, torque_nm) << range;
+    const auto named = testing::Contains(HasSubstr("stronger to one side"));
+    if (std::string_view(range) == "-3 3")
+      EXPECT_THAT(guess(files, model).doubts, Not(named)) << range;
+    else
+      EXPECT_THAT(guess(files, model).doubts, named) << range;
   }
 }
 

@@ -91,6 +91,7 @@ RUNS["sensing"] = [
     [*TOLD, "controller.supg.contact.source=torque", "controller.supg.contact.threshold=3", "controller.supg.idle=wrap"],
     [*CTRNN, "controller.ctrnn.state=kept", "controller.ctrnn.steps_per_tick=1", "controller.ctrnn.motor_bias=evolved",
      'controller.ctrnn.sensors=["command_stop","command_speed","command_turn","heading_error","yaw_rate"]',
+     "controller.sensing.heading.lead_rad=0.1",
      'controller.sensing.sensors=[{of="command_speed",scale=2.5},{of="yaw_rate",scale=0.5}]'],
     [*CTRNN, 'controller.ctrnn.sensors=["roll","pitch","yaw","command_turn"]',
      'controller.sensing.sensors=[{of="pitch",delay_s=0.05,dead_time_s=0.02},{of="touch",delay_s=0.02}]'],
@@ -107,7 +108,7 @@ SHOWN = {
     "paper": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "trigger ignored", "mid", "hold", "wrap"],
     "robust": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "hold", "wrap"],
     "sensing": ["contact by torque", "contact by tracking", "contact by shock", "trigger in mid-cycle", "pull", "late reading",
-                "held reading", "other rate", "shift", "reshaped", "neuron that is not 0", "neuron between its ends", "link to rate",
+                "held reading", "heading held by its lead", "other rate", "shift", "reshaped", "neuron that is not 0", "neuron between its ends", "link to rate",
                 *("neurons sense " + kind for kind in ("command_stop", "command_speed", "command_turn", "heading_error", "yaw_rate",
                                                        "roll", "pitch", "yaw", "load", "torque", "speed", "angle", "touch"))],
 }

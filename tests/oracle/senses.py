@@ -20,7 +20,8 @@ class Senses:
         self.joints = {joint["name"]: joint for joint in self.robot["joints"]}
         self.weight_n = sum(body["mass_kg"] for body in self.robot["bodies"]) * math.hypot(*self.robot["gravity_m_s2"])
         self.items = {item["of"]: item for item in champion["controller"].get("sensing", {}).get("sensors", [])}
-        self.headings = {}
+        self.lead_rad = champion["controller"].get("sensing", {}).get("heading", {}).get("lead_rad", 0.0)
+        self.errors = []
 
     def reading(self, name, frame):
         item = self._item(name)
@@ -92,11 +93,19 @@ class Senses:
         begins = 1 if self.waits else 0
         if frame < begins:
             return 0.0
-        if frame not in self.headings:
-            self.headings[begins] = self.attitude(begins - 1)[2]
-            for f in range(begins, frame):
-                self.headings[f + 1] = _turn(self.headings[f] + float(self.recording["command.turn"][f]) * self.timestep_s)
-        return _turn(self.headings[frame] - self.attitude(frame - 1)[2])
+        for f in range(begins + len(self.errors), frame + 1):
+            yaw_rad = self.attitude(f - 1)[2]
+            if self.errors:
+                self.wanted_rad += float(self.recording["command.turn"][f - 1]) * self.timestep_s
+            else:
+                self.wanted_rad = yaw_rad
+            error_rad = _turn(self.wanted_rad - yaw_rad)
+            if 0.0 < self.lead_rad < abs(error_rad):
+                self.events["heading held by its lead"] += 1
+                error_rad = math.copysign(self.lead_rad, error_rad)
+                self.wanted_rad = yaw_rad + error_rad
+            self.errors.append(error_rad)
+        return self.errors[frame - begins]
 
 
 def _turn(angle_rad):

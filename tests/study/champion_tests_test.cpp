@@ -176,10 +176,10 @@ TEST(ChampionTest, SteeredByHandIsTheTrialOfThatWalkerAndMeasuresItsCost) {
   test.spec.command = "0.4,0.5";
   test.spec.energy = true;
   test.command = {.kind = trial::CommandKind::fixed, .stretches = {{0.4, 0.5}}};
-  test.steering = {.turn_gain = 1.0, .full_speed_m_s = 0.4};
+  test.steering = experiment::HandSteering{{.turn_gain = 1.0, .full_speed_m_s = 0.4}};
   auto problem = champion().problem;
   problem.set_commands(*test.command);
-  problem.set_differential(*test.steering);
+  experiment::steer_by_hand(problem, *test.steering);
   const auto expected = experiment::replay(problem, champion().genome, {.seconds = 6.0}, never)->result;
   const auto result = run_test(test, champion(), never);
   EXPECT_EQ(result->episodes[0].distance_m, expected.distance_m);

@@ -219,7 +219,7 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
   study.tests[0].command = "0.4,0; 0.4,0.5";
   const Plan plan = make_plan(study, "out");
   ASSERT_TRUE(plan.conditions[0].tests[0].steering);
-  EXPECT_EQ(plan.conditions[0].tests[0].steering->turn_gain, 1.5);
+  EXPECT_EQ(plan.conditions[0].tests[0].steering->gains.turn_gain, 1.5);
   EXPECT_FALSE(plan.conditions[0].tests[1].steering);
   EXPECT_FALSE(plan.conditions[1].tests[0].steering);
   const auto refused = [&](const std::string& steering) -> std::string {

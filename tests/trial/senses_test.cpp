@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -153,6 +155,43 @@ TEST(Senses, OfTheHeadingErrorIsTheSumOfCommandedTurnsLessTheYaw) {
     engine.frame().attitude_rad.at(2, 0) = static_cast<float>(std::remainder(yaw_rad, 2.0 * M_PI));
     EXPECT_NEAR(senses.read(engine).heading_error_rad.at(0, 0),
                 std::remainder(wanted_rad - yaw_rad, 2.0 * M_PI), 1e-4);
+  }
+}
+
+TEST(Senses, OfABlockedRobotTheHeadingIsAheadByNoMoreThanTheLeadAndComesBackAtOnce) {
+  for (const float turn_rad_s : {0.5f, -0.5f})
+    for (const float yaw_rad : {0.0f, 3.1f, -3.1f}) {
+      const CommandSchedule schedule{{{0, {0.3f, turn_rad_s}}, {2000, {0.3f, -turn_rad_s}}}, 0};
+      FakeEngine engine(1);
+      engine.frame().attitude_rad.at(2, 0) = yaw_rad;
+      Senses senses({.extra = {.heading_error = true}, .models = {}, .heading_lead_rad = 1.0f},
+                    engine.sensors(), timestep_s);
+      senses.load(0, engine, nullptr, &schedule);
+      const double side = turn_rad_s > 0.0f ? 1.0 : -1.0;
+      for (int tick = 0; tick < 2400; ++tick) {
+        const float error_rad = senses.read(engine).heading_error_rad.at(0, 0);
+        const double expected_rad =
+            tick <= 2000 ? std::min(0.005 * tick, 1.0) : std::max(1.0 - 0.005 * (tick - 2000), -1.0);
+        EXPECT_NEAR(side * error_rad, expected_rad, 1e-3) << tick << ": " << turn_rad_s;
+      }
+    }
+}
+
+TEST(Senses, ARobotThatTurnsAsItIsToldFeelsNothingOfTheLead) {
+  const CommandSchedule schedule = turning_left(0.5f);
+  FakeEngine engine(1);
+  const auto error_of = [&](Senses& senses) {
+    return std::bit_cast<std::uint32_t>(senses.read(engine).heading_error_rad.at(0, 0));
+  };
+  Senses within({.extra = {.heading_error = true}, .models = {}, .heading_lead_rad = 0.5f}, engine.sensors(),
+                timestep_s),
+      without({.extra = {.heading_error = true}, .models = {}}, engine.sensors(), timestep_s);
+  within.load(0, engine, nullptr, &schedule);
+  without.load(0, engine, nullptr, &schedule);
+  for (int tick = 0; tick < 500; ++tick) {
+    engine.frame().attitude_rad.at(2, 0) =
+        static_cast<float>(std::remainder(0.0051 * tick + 0.2 * std::sin(0.1 * tick), 2.0 * M_PI));
+    EXPECT_EQ(error_of(within), error_of(without)) << tick;
   }
 }
 

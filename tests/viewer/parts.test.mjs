@@ -130,6 +130,17 @@ test("where a robot lags behind its commands, its rates say so and the wanted pa
   assert.ok(Math.hypot(x[400] - full.com[0][400], y[400] - full.com[1][400]) < 0.01);
 });
 
+test("where a robot lags behind, its heading error is as far as it lags, and no farther than its lead", () => {
+  const walk = circling({ speed: 0.3, turn: -0.5, seconds: 30, slower: 0.5 }), errors = rates(walk).headingErrors;
+  const lag = (row) => -0.25 * row * walk.poses.step_s;
+  for (const row of [0, 100, 600]) assert.ok(Math.abs(errors[row] - lag(row)) < 1e-9, `row ${row}: ${errors[row]}`);
+  assert.ok(Math.abs(errors.at(-1) - lag(errors.length - 1) - 2 * Math.PI) < 1e-9, "beyond half a turn the short way is the other");
+  walk.controller = { heading_lead_rad: 1 };
+  const held = rates(walk).headingErrors;
+  for (const row of [0, 100]) assert.ok(Math.abs(held[row] - lag(row)) < 1e-9);
+  for (const row of [250, 600, 1400]) assert.ok(Math.abs(held[row] + 1) < 1e-9, `row ${row}: ${held[row]}`);
+});
+
 test("of a walk that grows, heading and wanted path are those of the whole, and rates those of the second before", () => {
   const walk = circling({ speed: 0.3, turn: -0.5, seconds: 10, slower: 0.5 }), whole = rates(walk), table = new Map(), { count } = walk.poses;
   for (const name of GrowingRates.columns) table.set(name, new Float64Array(count));
@@ -138,6 +149,7 @@ test("of a walk that grows, heading and wanted path are those of the whole, and 
   for (let k = 0; k < count; ++k) growing.add(k);
   for (let k = 60; k < count; k += 7) {
     assert.ok(Math.abs(growing.headings[k] - whole.headings[k]) < 1e-12);
+    assert.ok(Math.abs(growing.headingErrors[k] - whole.headingErrors[k]) < 1e-12);
     for (const axis of [0, 1]) assert.ok(Math.abs(growing.wanted[axis][k] - whole.wanted[axis][k]) < 1e-12);
     assert.ok(Math.abs(growing.turns[k] - whole.turns[k - 25]) < 1e-9 && Math.abs(growing.speeds[k] - 0.15) < 0.005);
   }

@@ -14,7 +14,7 @@ const READINGS = {
   command_speed: ({ walk, row }) => walk.commands[0][row],
   command_turn: ({ walk, row }) => walk.commands[1][row],
   command_stop: ({ walk, row }) => Number(walk.commands.every((column) => column[row] === 0)),
-  heading_error: ({ done, row }) => Math.atan2(...[Math.sin, Math.cos].map((part) => part(done.wantedHeadings[row] - done.headings[row]))),
+  heading_error: ({ done, row }) => done.headingErrors[row],
   yaw_rate: ({ walk, done, row }) => (row ? (done.headings[row] - done.headings[row - 1]) / walk.poses.step_s : 0),
   touch: ({ walk, t }, leg) => Number(walk.touching(leg, t)),
 };

@@ -34,7 +34,16 @@ export function rates(walk) {
   const turned = headings(walk), speeds = new Float64Array(count), turns = new Float64Array(count);
   for (let k = 0; k < count; ++k)
     [speeds[k], turns[k]] = ratesBetween(walk, turned, Math.max(0, k - half), Math.min(count - 1, k + half), k);
-  return { headings: turned, speeds, turns, wantedHeadings: wantedHeadings(walk, turned), wanted: wantedPath(walk, turned) };
+  const headingErrors = new Float64Array(count);
+  for (let k = 0; k < count; ++k) headingErrors[k] = headingError(walk, turned, headingErrors, k);
+  return { headings: turned, headingErrors, speeds, turns, wantedHeadings: wantedHeadings(walk, turned), wanted: wantedPath(walk, turned) };
+}
+
+/** What the sensor heading_error says in row k: how far what the turns led to is to the left, within half a turn and the lead of the walker's settings. */
+function headingError(walk, turned, before, k) {
+  if (k === 0) return 0;
+  const ahead = turned[k - 1] + before[k - 1] + walk.commands[1][k] * walk.poses.step_s - turned[k], most = walk.controller?.heading_lead_rad || Math.PI;
+  return Math.min(most, Math.max(-most, ahead - 2 * Math.PI * Math.round(ahead / (2 * Math.PI))));
 }
 
 /** What the commanded turns have led to, row by row. */
@@ -55,14 +64,14 @@ export function wantedPath(walk, turned) {
 }
 
 /** The columns of rates() of a walk that grows, by the names of its table's; means are over the second before. */
-const COLUMNS = ["heading", "done.speed", "done.turn", "wanted.heading", "wanted.x", "wanted.y"];
+const COLUMNS = ["heading", "heading.error", "done.speed", "done.turn", "wanted.heading", "wanted.x", "wanted.y"];
 export class GrowingRates {
   static columns = COLUMNS;
 
   constructor(walk) {
     this.walk = walk;
-    const [headings, speeds, turns, wantedHeadings, ...wanted] = COLUMNS.map((name) => walk.poses.get(name));
-    Object.assign(this, { headings, speeds, turns, wantedHeadings, wanted });
+    const [headings, headingErrors, speeds, turns, wantedHeadings, ...wanted] = COLUMNS.map((name) => walk.poses.get(name));
+    Object.assign(this, { headings, headingErrors, speeds, turns, wantedHeadings, wanted });
     this.begin();
   }
 
@@ -75,6 +84,7 @@ export class GrowingRates {
   add(k) {
     const { walk, headings, speeds, turns, wantedHeadings, wanted: [x, y] } = this, { step_s } = walk.poses, [speed, turn] = walk.commands;
     headings[k] = headingOf(walk, k, k === 0 ? 0 : headings[k - 1]);
+    this.headingErrors[k] = headingError(walk, headings, this.headingErrors, k);
     wantedHeadings[k] = k === 0 ? headings[0] : wantedHeadings[k - 1] + turn[k] * step_s;
     x[k] = k === 0 ? walk.com[0][0] : x[k - 1] + speed[k] * step_s * Math.cos(wantedHeadings[k]);
     y[k] = k === 0 ? walk.com[1][0] : y[k - 1] + speed[k] * step_s * Math.sin(wantedHeadings[k]);
