@@ -211,6 +211,12 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
 }
 
+bool is_share(std::string_view measure) {
+  constexpr std::array shares{"fell_share",     "viable_share",       "tracking",     "coverage",
+                              "entering_share", "corrected_coverage", "staying_share"};
+  return std::ranges::find(shares, split(measure).measure) != shares.end();
+}
+
 bool is_of_seam(std::string_view measure) {
   const auto found = std::ranges::find(test_measures, split(measure).measure, &TestMeasure::name);
   return found != test_measures.end() && found->needs == Requires::seam;

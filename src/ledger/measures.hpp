@@ -42,6 +42,9 @@ const TestSpec* test_of(const StudySpec& study, std::string_view measure);
 /// timers never give.
 bool is_of_seam(std::string_view measure);
 
+/// Whether a measure is a share, 0 … 1 whatever happens.
+bool is_share(std::string_view measure);
+
 /// All names that is_measure() can know, for messages: "train_m, hidden, …, TEST.distance_m, .upright_s, …".
 std::string measure_names();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/ledger/measures.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/statistics/hypothesis_tests.hpp"
 
@@ -39,6 +40,12 @@ Pair compare(const ledger::ConditionSpec& first, const ledger::ConditionSpec& se
           .superiority = statistics::vargha_delaney(a, b, confidence)};
 }
 
+/// Student's interval knows nothing of the ends of a share.
+void cut_to_shares(statistics::Interval& interval) {
+  interval.lower = std::max(interval.lower, 0.0);
+  interval.upper = std::min(interval.upper, 1.0);
+}
+
 }  // namespace
 
 std::vector<SampleSummary> summarize(const StudyData& data) {
@@ -49,8 +56,9 @@ std::vector<SampleSummary> summarize(const StudyData& data) {
       const auto values = data.values(condition.name, measure);
       // Runs that never got as far as a test asks have no mean; the table of runs and counts have them.
       if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) continue;
-      const auto summary = statistics::summarize(values, confidence);
+      auto summary = statistics::summarize(values, confidence);
       if (!summary) continue;
+      if (summary->mean_interval && ledger::is_share(measure)) cut_to_shares(*summary->mean_interval);
       SampleSummary found{.measure = measure,
                           .condition = condition.name,
                           .planned = data.planned(condition.name),

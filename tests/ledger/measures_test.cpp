@@ -37,6 +37,14 @@ TEST(Measures, OfSeveralEpisodesAreAlsoTheirQuartilesTheLuckiestAndWhatFell) {
   EXPECT_EQ(measure(record, "five.fell_share"), 0.4);
 }
 
+TEST(Measures, SharesAreThoseThatCannotLeaveNoneToAll) {
+  for (const char* share :
+       {"five.fell_share", "told.tracking", "mutants.viable_share", "coverage", "staying_share"})
+    EXPECT_TRUE(is_share(share)) << share;
+  for (const char* other : {"five.distance_m", "five.kept", "mutants.mutants_kept", "qd_score", "hidden"})
+    EXPECT_FALSE(is_share(other)) << other;
+}
+
 TEST(Measures, CostOfTransportIsEnergyByWeightAndWayAndInfiniteOfWhatGoesNowhere) {
   Record record = sample_record();
   EXPECT_FALSE(measure(record, "five.cost_of_transport"));

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "amble/statistics/hypothesis_tests.hpp"
 #include "tests/report/fixture.hpp"
 
@@ -28,6 +31,25 @@ TEST(Summaries, OfOneRunHaveNoIntervals) {
   EXPECT_EQ(distance->planned, 3u);
   EXPECT_FALSE(distance->summary.sd || distance->summary.mean_interval || distance->median);
   EXPECT_EQ(find_summary(summaries, "train_m", "b"), nullptr);
+}
+
+TEST(Summaries, IntervalsOfSharesStayBetweenNoneAndAll) {
+  StudyData data = small_study();
+  data.study.tests[0].episodes = 4;
+  const auto fell_share = [&](const std::vector<std::size_t>& falls) {
+    for (std::size_t run = 0; run < falls.size(); ++run) {
+      auto& episodes = data.records[run].tests[0].episodes;
+      episodes.assign(4, {.distance_m = 1.0});
+      for (std::size_t e = 0; e < falls[run]; ++e) episodes[e].outcome = record::Outcome::fell;
+    }
+    return find_summary(summarize(data), "long.fell_share", "a")->summary;
+  };
+  const statistics::Summary few = fell_share({0, 0, 1}), many = fell_share({4, 4, 3});
+  EXPECT_NEAR(few.mean, 1.0 / 12.0, 1e-12);
+  EXPECT_EQ(few.mean_interval->lower, 0.0);
+  EXPECT_NEAR(few.mean_interval->upper, 1.0 / 12.0 + 4.302653 * 0.144338 / std::sqrt(3.0), 1e-5);
+  EXPECT_EQ(many.mean_interval->upper, 1.0);
+  EXPECT_NEAR(many.mean_interval->lower, 11.0 / 12.0 - 4.302653 * 0.144338 / std::sqrt(3.0), 1e-5);
 }
 
 TEST(Pairs, AreAllPairsOfOneMeasureAndEachTestIsAFamily) {
