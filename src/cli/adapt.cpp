@@ -42,7 +42,10 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
   fmt::print("{} after {} trials{}\n\n", adaptation.done ? "nothing better is predicted" : "stopped",
              adaptation.steps.size(),
              options.settings.episodes > 1 ? fmt::format(" of {} attempts", options.settings.episodes) : "");
-  fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.test_trials);
+  if (repertoire.problem.trials_vary())
+    fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.test_trials);
+  else
+    fmt::print("in {}, one trial each, as the map was made without noise:\n", options.settings.engine);
   fmt::print("  the map's best, intact     {}\n", text(adaptation.intact));
   fmt::print("  the same, damaged          {}\n", text(adaptation.damaged));
   fmt::print("  adapted (cell {:>6})      {}\n", adaptation.cell, text(adaptation.adapted));
@@ -57,6 +60,10 @@ ExitCode run_adapt(AdaptOptions options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
   options.settings.damage = experiment::damage_of(options.damage);
   const bool is_page = options.out && options.out->extension() == ".html";
+  if (options.out && !is_page && options.out->extension() != ".json")
+    fail(ExitCode::bad_input, "--out {}: expected FILE.html or FILE.json", options.out->string());
+  if (is_page && repertoire.config.search.map_elites.archive != search::Archive::grid)
+    fail(ExitCode::bad_input, "--out: a map of centroids has no picture: expected FILE.json");
   if (is_page)
     io::check_output(*options.out, "<!DOCTYPE html>", "a page");
   else if (options.out)

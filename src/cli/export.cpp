@@ -56,6 +56,7 @@ ExitCode run_export(const ExportOptions& options) {
     io::check_output(*options.out, json ? exporting::export_json_start : "<mujoco",
                      json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
+  if (stop_signal()) return ExitCode::interrupted;
   if (options.out)
     io::write_output(*options.out, text);
   else

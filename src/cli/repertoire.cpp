@@ -136,6 +136,13 @@ ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOpt
 
 ExitCode run_repertoire(const RepertoireOptions& options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
+  const bool retests = options.retest.value_or(0) > 0, takes_away = options.out && !options.gaits;
+  if (retests && (options.cell || (takes_away && options.out->extension() == ".json")))
+    fail(ExitCode::bad_input,
+         "--retest {}: not with {}, which holds what the map says; expected it alone, or with -o FILE.html, "
+         ".svg "
+         "or .csv",
+         *options.retest, options.cell ? "--cell" : "-o FILE.json");
   if (options.gaits) return write_switching(repertoire, options);
   if (options.cell) return write_elite(repertoire, *options.cell, options.out);
   if (options.out) return write_map(repertoire, options);
@@ -181,7 +188,8 @@ void add_repertoire(CLI::App& app, Action& action) {
   command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
       ->check(between(1, 10000))
       ->capture_default_str();
-  add_jobs(*command, options->jobs, "Processors for --retest; the results do not depend on it");
+  add_jobs(*command, options->jobs,
+           "Processors for --retest and --switching; the results do not depend on it");
   add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, what its elites keep"},
                           {"amble repertoire runs/map -o map.html", ""},
                           {"amble repertoire runs/map --switching 16 -o walker.json",

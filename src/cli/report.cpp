@@ -82,8 +82,15 @@ void prepare(const std::vector<Output>& files) {
       fail(ExitCode::bad_input, "{} would be written twice: name different files", printable(file.path));
     if (fs::is_directory(file.path))
       fail(ExitCode::bad_input, "{} is a folder: name another place", printable(file.path));
-    io::refuse_to_replace(file.path, file.beginning, file.what);
+    io::check_output(file.path, file.beginning, file.what);
   }
+  // A file in the place of a folder that another output needs.
+  for (const Output& file : files)
+    for (fs::path above = resolved(file.path).parent_path(); above.has_relative_path();
+         above = above.parent_path())
+      if (paths.contains(above))
+        fail(ExitCode::bad_input, "{} would be a file and the folder of {}: name different places",
+             printable(above), printable(file.path));
   for (const Output& file : files) io::make_folder(file.path.parent_path());
 }
 

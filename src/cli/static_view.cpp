@@ -84,8 +84,18 @@ motion::RecordedTrial record_again(const experiment::Champion& champion, const f
   return motion::read_recorded_trial(recording.path());
 }
 
+/// Those that say which trial is shown, as they are typed.
+std::string options_text(const StaticView& options) {
+  const presentation::TrialChoice& choice = options.disturbance;
+  std::string text = options.engine ? " --engine " + *options.engine : "";
+  if (!choice.level.empty()) text += " --level " + io::shell_word(choice.level);
+  if (choice.noise) text += " --noise " + io::shell_word(choice.noise->string());
+  if (choice.trials > 0) text += fmt::format(" --trials {}", choice.trials);
+  return choice.undisturbed ? text + " --undisturbed" : text;
+}
+
 page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Config& config,
-                      const experiment::Champion& champion, const std::optional<std::string>& engine,
+                      const experiment::Champion& champion, const StaticView& options,
                       const presentation::ShownTrial& shown) {
   const auto generations = record::read_generations(paths.generations);
   return {
@@ -96,10 +106,9 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
       .generations = generations,
       .objective = score::objective_of(config.score),
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
-      .facts = facts(config, champion, engine.value_or(config.engine), shown),
-      .commands = {
-          fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),
-          fmt::format("amble view AGAIN --static{} -o page.html", engine ? " --engine " + *engine : "")}};
+      .facts = facts(config, champion, options.engine.value_or(config.engine), shown),
+      .commands = {fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),
+                   fmt::format("amble view AGAIN --static{} -o page.html", options_text(options))}};
 }
 
 }  // namespace
@@ -114,7 +123,7 @@ ExitCode make_static_view(const StaticView& options) {
   const auto shown = shown_trial(champion, {}, options.engine, options.disturbance);
   champion.problem.noise = shown.noise;
   const auto recorded = record_again(champion, champion_path, options.engine, shown.key);
-  const page::RunPage contents = page_of(paths, config, champion, options.engine, shown);
+  const page::RunPage contents = page_of(paths, config, champion, options, shown);
 
   io::write_output(options.out, page::make_page(contents, recorded));
   if (options.figures)

@@ -16,6 +16,7 @@
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/build_info.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/problem.hpp"
@@ -223,6 +224,19 @@ std::string farewell(const StudyOptions& options, ExitCode code) {
                      io::shell_word(options.out.string()));
 }
 
+/// Where all tests that are to be made again are this build's already.
+void note_retest(const StudyOptions& options, const std::vector<study::RunStatus>& states) {
+  if (options.retest.empty() || options.as_child ||
+      std::ranges::find(states, study::RunStatus::untested) != states.end())
+    return;
+  const auto commit = experiment::build_info().commit;
+  print_message(fmt::format("--retest: no finished run has these tests by another commit than {}{}\n", commit,
+                            commit.ends_with('+')
+                                ? ", which has changes that are not committed: builds of it are "
+                                  "not told apart"
+                                : ""));
+}
+
 ExitCode run_study(const StudyOptions& options) {
   if (options.out.empty()) fail(ExitCode::bad_input, "--out: expected the name of a folder");
   std::signal(SIGPIPE, SIG_IGN);
@@ -232,6 +246,7 @@ ExitCode run_study(const StudyOptions& options) {
   ledger::check_folder(plan.paths, plan.study, options.file);
   plan.retest(options.retest);
   const auto states = study::survey(plan);
+  note_retest(options, states);
   stop_signal();  // Until here nothing is lost where a signal ends the program at once.
   if (options.slurm) return write_slurm_script(plan, options);
   if (!options.as_child) {

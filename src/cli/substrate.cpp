@@ -76,7 +76,7 @@ void show(const SubstrateOptions& options, const experiment::Problem& problem,
     fmt::print("controller    {}\n{}", problem.architecture->name(),
                substrate::summary(problem.controller.substrate, *layout));
   if (!options.out.empty())
-    io::write_file(options.out, figures::substrate_svg(links ? *links : drawn(*layout)));
+    io::write_output(options.out, figures::substrate_svg(links ? *links : drawn(*layout)));
 }
 
 ExitCode show_substrate(const SubstrateOptions& options) {

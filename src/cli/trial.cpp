@@ -46,7 +46,8 @@ struct TrialOptions {
 };
 
 /// The largest number of an earlier version: episodes, and from most_evolution_episodes on unseen ones.
-constexpr std::uint32_t most_old_number = 1'000'000;
+constexpr std::uint32_t most_old_number =
+    experiment::episode_number(experiment::EpisodeSet::unseen, experiment::most_unseen_episodes - 1);
 
 void take_old_number(TrialOptions& options, std::string_view option, std::uint32_t number) {
   constexpr std::uint32_t first_unseen = experiment::episode_number(experiment::EpisodeSet::unseen, 0);
@@ -203,7 +204,7 @@ ExitCode run_trial(const TrialOptions& options) {
   std::optional<io::ScratchFile> scratch;
   if (options.draw) prepare_to_draw(options, champion, scratch);
   if (options.record) io::make_folder(options.record->parent_path());
-  experiment::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(champion.problem, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
                                 .record = scratch ? scratch->path() : options.record,
@@ -294,7 +295,7 @@ void add_trial(CLI::App& app, Action& action) {
           ->add_option(
               "--unseen", options->unseen,
               "Only one trial, disturbed as evolution has not met it, or by --noise: which one, from 0")
-          ->check(between(0u, experiment::most_unseen_episodes))
+          ->check(between(0u, experiment::most_unseen_episodes - 1))
           ->excludes(episode);
   for (const char* other : {"--level", "--trials", "--undisturbed"}) {
     episode->excludes(command->get_option(other));

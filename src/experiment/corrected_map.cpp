@@ -77,7 +77,8 @@ std::optional<CorrectedMap> correct_map(const Repertoire& repertoire, int trials
 
   const auto objectives = experiment::objectives(problem, *result);
   const auto cells = search::make_cells(config.search.map_elites);
-  CorrectedMap corrected{.cells = elites.cells(), .trials = trials, .elites = {}};
+  // Where nothing differs between trials, one is all of them.
+  CorrectedMap corrected{.cells = elites.cells(), .trials = problem.trials_vary() ? trials : 1, .elites = {}};
   for (std::uint32_t i = 0; i < elites.size(); ++i) {
     TypicalElite elite{.cell = elites[i].cell,
                        .promised = elites[i].objective,

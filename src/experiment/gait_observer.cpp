@@ -1,5 +1,7 @@
 #include "amble/experiment/gait_observer.hpp"
 
+#include "amble/robot/pose.hpp"
+
 namespace amble::experiment {
 namespace {
 
@@ -8,12 +10,29 @@ void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
   for (int row = 0; row < rows.rows(); ++row) values.push_back(rows.at(row, lane));
 }
 
+/// The body that is measured: as it begins, with its damage.
+gait::Body body_in(const Problem& problem) {
+  gait::Body body = gait::body_of(problem.robot);
+  if (problem.damage.changes_body()) body.mass_kg = problem.mass_kg();
+  return body;
+}
+
 }  // namespace
 
-GaitObserver::GaitObserver(const robot::RobotSpec& robot, double timestep_s, const gait::Settings& settings)
-    : meter_(gait::body_of(robot), timestep_s, settings),
-      seam_(robot, timestep_s),
-      legs_(robot.legs.size()) {}
+GaitObserver::GaitObserver(const Problem& problem, const gait::Settings& settings)
+    : body_(body_in(problem)),
+      timestep_s_(problem.trial.timestep_s),
+      settings_(settings),
+      meter_(body_, timestep_s_, settings_),
+      seam_(problem.robot, timestep_s_),
+      legs_(problem.robot.legs.size()) {}
+
+void GaitObserver::on_start(const physics::Engine& engine, int lane) {
+  const Vec3 com_m = engine.com_m(lane);
+  if (!robot::starts_elsewhere(com_m, body_.com_start_m)) return;
+  body_.com_start_m = com_m;
+  meter_ = gait::Meter(body_, timestep_s_, settings_);
+}
 
 void GaitObserver::on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
                            const LaneArray& targets_rad, int lane) {

@@ -31,7 +31,7 @@ bool final_round(Evaluator& evaluator, const Problem& problem, std::span<const n
                  double share, std::span<const trial::Scenario> scenarios,
                  const std::shared_ptr<const ground::Ground>& ground, EvaluatedGeneration& evaluated,
                  const std::atomic<bool>& stop) {
-  const auto finalists = finalists_of(evaluated.objectives, share);
+  const auto& finalists = evaluated.finalists = finalists_of(evaluated.objectives, share);
   std::vector<neat::Genome> best;
   best.reserve(finalists.size());
   for (const std::size_t i : finalists) best.push_back(genomes[i]);
@@ -67,6 +67,11 @@ std::vector<std::size_t> finalists_of(std::span<const double> objectives, double
   order.resize(count);
   std::ranges::sort(order);
   return order;
+}
+
+std::size_t EvaluatedGeneration::best() const {
+  if (finalists.empty()) return to_index(std::ranges::max_element(objectives) - objectives.begin());
+  return *std::ranges::max_element(finalists, {}, [this](std::size_t i) { return objectives[i]; });
 }
 
 ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour) {

@@ -19,6 +19,11 @@ namespace amble::experiment {
 struct EvaluatedGeneration {
   GenerationResult result;         ///< of the trials that every genome has; steps and times of all trials
   std::vector<double> objectives;  ///< of all trials of each genome, by the problem's score; default m
+  std::vector<std::size_t> finalists = {};  ///< who had further trials, in order; empty: nobody
+
+  /// The first of those with the largest objective; of the finalists, if there are any: others may count as
+  /// much as the worst of them.
+  std::size_t best() const;
 };
 
 /// The generation's trials: one per genome and episode of the problem's noise, then those of the finalists

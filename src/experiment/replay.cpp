@@ -48,7 +48,8 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
             .origin = options.origin,
             .ground_json = ground ? ground::to_json(problem.ground, ground_key).dump() : std::string(),
             .damage_json =
-                problem.damage.is_default() ? std::string() : io::settings_to_json(problem.damage).dump()},
+                problem.damage.is_default() ? std::string() : io::settings_to_json(problem.damage).dump(),
+            .mass_kg = problem.damage.changes_body() ? std::optional(problem.mass_kg()) : std::nullopt},
         problem.robot, *engine, *controllers, commands);
     observers.add(*recording);
   }

@@ -228,7 +228,7 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
 }
 
 GenerationRow Run::State::summarise(const EvaluatedGeneration& evaluated) {
-  const auto& [result, objectives] = evaluated;
+  const auto& [result, objectives, finalists] = evaluated;
   GenerationRow row;
   row.generation = state_.strategy->round();
   row.times = result.times;
@@ -240,8 +240,7 @@ GenerationRow Run::State::summarise(const EvaluatedGeneration& evaluated) {
 }
 
 Run::State::Best Run::State::best_of(const EvaluatedGeneration& evaluated, GenerationRow& row) const {
-  const auto& objectives = evaluated.objectives;
-  const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
+  const auto best = evaluated.best();
   const neat::Genome& genome = state_.strategy->ask()[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
   row.best_links = genome.enabled_links();

@@ -1,5 +1,8 @@
 #include "amble/exporting/export_file.hpp"
 
+#include <string>
+#include <string_view>
+
 #include "amble/core/error.hpp"
 #include "amble/experiment/steering.hpp"
 #include "amble/exporting/c_text.hpp"
@@ -25,6 +28,22 @@ std::string start_sentence(const experiment::Problem& problem) {
 
 fs::path header_of(const fs::path& source) {
   return fs::path(source).replace_extension(".h");
+}
+
+/// Refuses a prefix with which a helper of the source has the name of something in the header.
+void check_helper_names(const std::string& prefix, const CSource& c, const fs::path& out) {
+  constexpr std::string_view begins = "\nstatic ";
+  for (auto at = c.source.find(begins); at != std::string::npos; at = c.source.find(begins, at + 1)) {
+    const std::string line = c.source.substr(at + 1, c.source.find('\n', at + 1) - at - 1);
+    const std::string head = line.substr(0, line.find_first_of("(["));
+    const std::string name = head.substr(head.find_last_of(" *") + 1);
+    if (name.starts_with(prefix + "_") && c.header.find(name) != std::string::npos)
+      fail(ExitCode::bad_input,
+           "{}: the file's name is the prefix of all names in it, and {} is that of a helper; expected "
+           "another "
+           "name",
+           out.string(), name);
+  }
 }
 
 void check_c_name(const fs::path& out) {
@@ -56,6 +75,7 @@ void write_c(const experiment::Champion& champion, const fs::path& out, Arithmet
   const auto c = c_source(
       tables, champion.problem.robot, provenance_of(champion), trace,
       {.prefix = out.stem().string(), .arithmetic = arithmetic, .start = start_sentence(champion.problem)});
+  check_helper_names(out.stem().string(), c, out);
   io::write_output(header_of(out), c.header);
   io::write_output(out, c.source);
 }

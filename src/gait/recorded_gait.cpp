@@ -62,7 +62,10 @@ Report recorded_gait(record::RecordingReader& reader, const std::string& what, c
                      std::optional<double> seconds) {
   const double frame_s = reader.header().frame_s;
   const robot::RobotSpec robot = robot::parse_robot(reader.header().robot_json, what + ": robot");
-  const Body body = body_of(robot);
+  Body body = body_of(robot);
+  if (const auto& start = reader.header().com_start_m)
+    body.com_start_m = {(*start)[0], (*start)[1], (*start)[2]};
+  body.mass_kg = reader.header().mass_kg.value_or(body.mass_kg);
   Columns com(reader, "com.", {"x", "y", "z"}), touch(reader, "touch.", body.legs),
       angle(reader, "angle.", body.joints);
   std::optional<Columns> torque;

@@ -23,7 +23,7 @@ Stream stream_of(const Settings& settings, const Key& key) {
 }
 
 double scale_of(const Settings& settings, const Key& key) {
-  if (settings.grow_generations == 0) return settings.height_m;
+  if (settings.grow_generations == 0 || key.set != 0) return settings.height_m;
   return settings.height_m * std::min(1.0, static_cast<double>(key.generation) / settings.grow_generations);
 }
 
@@ -100,7 +100,8 @@ HeightField::Sample HeightField::at(double x_m, double y_m) const {
 Key normalised(const Settings& settings, Key key) {
   if (settings.vary == Vary::generations) return key;
   if (key.set == 0) key.seed = 0;
-  key.generation = std::min(key.generation, static_cast<std::uint32_t>(settings.grow_generations));
+  key.generation =
+      key.set == 0 ? std::min(key.generation, static_cast<std::uint32_t>(settings.grow_generations)) : 0;
   return key;
 }
 

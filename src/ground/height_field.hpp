@@ -46,7 +46,7 @@ class HeightField {
 /// Names one field among those of the same settings. It is the same on every CPU, to the bit.
 struct Key {
   std::uint64_t seed = 0;        ///< of the run; without effect only with Vary::never and set 0
-  std::uint32_t generation = 0;  ///< for the curriculum, and with Vary::generations
+  std::uint32_t generation = 0;  ///< for the curriculum of set 0, and with Vary::generations
   std::uint32_t set = 0;         ///< 0: that of evolution; others: grounds unseen during evolution
 
   friend bool operator==(const Key&, const Key&) = default;
@@ -55,8 +55,8 @@ struct Key {
 /// The same for all keys that give the same field.
 Key normalised(const Settings& settings, Key key);
 
-/// The field of these settings; of the plane, one of height 0. A curriculum scales it by
-/// generation / grow_generations.
+/// The field of these settings; of the plane, one of height 0. A curriculum scales that of evolution (set 0)
+/// by generation / grow_generations; all others have their full heights.
 HeightField make_field(const Settings& settings, const Key& key);
 
 /// Where the centre of a ball of radius `radius_m` is when it touches `field`: the lowest heights at which it

@@ -12,8 +12,6 @@
 namespace amble::ground {
 namespace {
 
-constexpr double hurdle_m = 0.08;  ///< thickness
-
 /// Random numbers in [0, 1) at the nodes of a square lattice that repeats after `count` nodes.
 class Lattice {
  public:

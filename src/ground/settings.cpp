@@ -52,6 +52,12 @@ void Settings::validate() const {
     fail_setting({"ground.length_m", "ground.cell_m"},
                  "ground.length_m = {}: expected at least two cells of {} m (ground.cell_m)", length_m,
                  cell_m);
+  if (kind == "hurdles" && cell_m > hurdle_m)
+    fail_setting(
+        {"ground.cell_m"},
+        "ground.cell_m = {}: walls are {} m thick, and would be missed between two places; expected at "
+        "most that, or smaller ground.length_m and ground.start_radius_m",
+        cell_m, hurdle_m);
   // At least one whole step or obstacle around the start, or two waves or stones.
   const double period_m = HeightField::cells * cell_m;
   const double needed_m =

@@ -19,6 +19,8 @@ enum class Vary {
 };
 /// As configs write them, by Vary.
 inline constexpr std::array<std::string_view, 2> vary_names{"never", "generations"};
+/// Thickness of the walls of `hurdles`.
+inline constexpr double hurdle_m = 0.08;
 
 /// The ground that robots walk on, as part of an experiment. By default the plane z = 0 with the friction of
 /// the robot's file. Ranges are those that describe() holds a config to. On the plane only `start_place_m`,

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -13,6 +15,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 
 namespace amble::io {
@@ -133,6 +136,18 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
   return bytes;
 }
 
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
+  // Processes of other machines that share the folder may have this one's number.
+  static const std::uint32_t machine = [] {
+    std::array<char, 256> name{};
+    ::gethostname(name.data(), name.size() - 1);
+    return static_cast<std::uint32_t>(hash_text(name.data()));
+  }();
+  std::filesystem::path temporary = path;
+  temporary += fmt::format("{}{}{:010}", temporary_mark, ::getpid(), machine);
+  return temporary;
+}
+
 std::optional<std::filesystem::path> destination_of(const std::filesystem::path& temporary) {
   const std::string name = temporary.filename().string();
   const auto at = name.rfind(temporary_mark);
@@ -144,7 +159,7 @@ std::optional<std::filesystem::path> destination_of(const std::filesystem::path&
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
-  if (!is_special_file(path)) written_path_ += fmt::format("{}{}", temporary_mark, ::getpid());
+  if (!is_special_file(path)) written_path_ = temporary_of(path);
   fd_ = ::open(written_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd_ < 0) fail_to_write(path_, errno);
 }

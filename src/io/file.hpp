@@ -37,9 +37,11 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
 /// say what was being read.
 std::string last_read_file();
 
-/// Between a file's name and the process id in the name of its temporary file.
+/// Between a file's name and the number of process and machine in the name of its temporary file.
 inline constexpr std::string_view temporary_mark = ".tmp.";
 
+/// The temporary file of this process that becomes `path`.
+std::filesystem::path temporary_of(const std::filesystem::path& path);
 /// The file that a temporary file was to become, by its name ("a.json" of "a.json.tmp.12"); nothing for any
 /// other file.
 std::optional<std::filesystem::path> destination_of(const std::filesystem::path& temporary);

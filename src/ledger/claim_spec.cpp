@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <span>
+#include <utility>
 
 #include "amble/core/index.hpp"
 #include "amble/gait/gait.hpp"
@@ -113,7 +115,7 @@ void check_ratio(const ClaimSpec& claim, const ClaimCheck& check) {
              "at_least, at_most or both for a ratio");
 }
 
-void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
+void check_count(const ClaimSpec& claim, const ClaimCheck& check, bool is_recorded) {
   check.that((claim.threshold > -unbounded) != !claim.threshold_condition.empty(), "threshold",
              "either 'threshold' or 'threshold_condition' for a count");
   if (!claim.threshold_condition.empty()) check.condition("threshold_condition", claim.threshold_condition);
@@ -121,6 +123,9 @@ void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
   check.that(bounded != (claim.runs > 0), "at_least",
              "either bounds (at_least, at_most) or a published count (successes, runs)");
   check.that(claim.successes <= claim.runs || claim.runs == 0, "successes", "at most 'runs'");
+  for (const auto& [key, bound] : {std::pair{"at_least", claim.at_least}, {"at_most", claim.at_most}})
+    check.that(is_recorded || !std::isfinite(bound) || bound == std::floor(bound), key,
+               fmt::format("a whole number of runs for a count, not {}", bound));
 }
 
 void check_difference(const ClaimSpec& claim, const ClaimCheck& check) {
@@ -195,7 +200,7 @@ void check_claim(const StudySpec& study, std::size_t index, bool is_recorded) {
   check.tried("condition", claim.condition, test);
   if (claim.kind == ClaimKind::difference) check_difference(claim, check);
   if (claim.kind == ClaimKind::ratio) check_ratio(claim, check);
-  if (claim.kind == ClaimKind::count) check_count(claim, check);
+  if (claim.kind == ClaimKind::count) check_count(claim, check, is_recorded);
   if (claim.kind == ClaimKind::value)
     check.that(claim.sd > 0.0 && claim.runs > 1, "sd", "sd > 0 and runs > 1");
   if (claim.kind == ClaimKind::plateau)

@@ -101,7 +101,7 @@ void check_place(const StudyPaths& paths, const StudySpec& study, const std::str
   io::refuse_to_replace(paths.spec, text.substr(0, text.find('\n')), "a study that amble keeps there");
   const auto strangers = Ledger(paths).unknown_files(study);
   if (strangers.empty()) return;
-  const StudySpec other = load_study(paths.spec);
+  const StudySpec other = load_study(paths.spec, true);
   if (other.name != study.name)
     fail(ExitCode::bad_input,
          "--out {}: has the study '{}', and records of it that are not of '{}'; name another folder",

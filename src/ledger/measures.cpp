@@ -211,6 +211,10 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
 }
 
+bool is_of_map(std::string_view measure) {
+  return std::ranges::find(map_measures, measure, &MapMeasure::name) != map_measures.end();
+}
+
 bool is_share(std::string_view measure) {
   constexpr std::array shares{"fell_share",     "viable_share",       "tracking",     "coverage",
                               "entering_share", "corrected_coverage", "staying_share"};

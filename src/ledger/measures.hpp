@@ -42,6 +42,9 @@ const TestSpec* test_of(const StudySpec& study, std::string_view measure);
 /// timers never give.
 bool is_of_seam(std::string_view measure);
 
+/// Whether a measure is of the map that a run fills.
+bool is_of_map(std::string_view measure);
+
 /// Whether a measure is a share, 0 … 1 whatever happens.
 bool is_share(std::string_view measure);
 

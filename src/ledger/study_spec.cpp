@@ -48,6 +48,20 @@ void check_seeds(const StudySpec& study, const std::string& key, const std::vect
   }
 }
 
+/// Refuses a robot among settings, whose path nobody would take from the study file.
+void check_settings(const StudySpec& study) {
+  const auto check = [&study](const std::string& key, const std::vector<std::string>& settings) {
+    for (const std::string& setting : settings)
+      if (io::trimmed(setting.substr(0, setting.find('=')), " \t") == "robot")
+        throw study.error_at(key, fmt::format("'{}' has \"{}\": expected 'robot' as a key of the condition, "
+                                              "which is relative to the study file",
+                                              key, io::printable(setting)));
+  };
+  check("settings", study.settings);
+  for (std::size_t i = 0; i < study.conditions.size(); ++i)
+    check(item("conditions", i, "settings"), study.conditions[i].settings);
+}
+
 void check_conditions(const StudySpec& study) {
   if (study.conditions.empty())
     throw study.error_at("conditions", "no conditions: expected at least one [[conditions]]");
@@ -224,6 +238,7 @@ StudySpec load_study(const std::filesystem::path& path, bool is_recorded) {
   reader->finish();
   check_seeds(study, "seeds", study.seeds);
   check_conditions(study);
+  if (!is_recorded) check_settings(study);
   check_tests(study);
   for (std::size_t i = 0; i < study.claims.size(); ++i) check_claim(study, i, is_recorded);
 

@@ -34,6 +34,14 @@ bool possible(std::array<mjtNum, 3> moments) {
   return moments[2] >= 0.0 && moments[1] + moments[2] >= moments[0];
 }
 
+/// What is to be added to each of the moments, so that a body can have them, where they miss that by the
+/// digits of a file; else 0.
+double rounding_of(const std::array<mjtNum, 3>& falling) {
+  constexpr double most_share = 0.01;
+  const double excess = falling[0] - falling[1] - falling[2];
+  return falling[2] >= 0.0 && excess <= most_share * falling[0] ? excess * (1.0 + 1e-6) : 0.0;
+}
+
 /// One <inertial>, of either format.
 class Inertial {
  public:
@@ -62,6 +70,22 @@ class Inertial {
   void set_mass(const std::string& kg) {
     XmlElement& mass = urdf_ ? child("mass") : element_;
     mass.set(urdf_ ? "value" : "mass", kg);
+  }
+
+  /// The axes stay.
+  void add_to_moments(double each) {
+    const auto all = moments();
+    const std::array sums{all[0] + each, all[1] + each, all[2] + each};
+    if (urdf_) {
+      XmlElement& inertia = child("inertia");
+      for (std::size_t i = 0; i < 3; ++i)
+        inertia.set(std::array{"ixx", "iyy", "izz"}[i], fmt::format("{:.9g}", sums[i]));
+    } else if (element_.attribute("fullinertia")) {
+      element_.set("fullinertia", fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}", sums[0], sums[1],
+                                              sums[2], all[3], all[4], all[5]));
+    } else {
+      element_.set("diaginertia", fmt::format("{:.9g} {:.9g} {:.9g}", sums[0], sums[1], sums[2]));
+    }
   }
 
   void set_moments(const std::string& each) {
@@ -159,7 +183,7 @@ bool give_small_mass_mjcf(XmlElement& root, const std::string& name, int id, Mis
 }  // namespace
 
 void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes) {
-  std::vector<std::string> balanced, negative;
+  std::vector<std::string> balanced, rounded, negative;
   root.visit([&](XmlElement& body, XmlElement*) {
     XmlElement* element = body.name == (urdf ? "link" : "body") ? body.child("inertial") : nullptr;
     if (element == nullptr) return;
@@ -173,7 +197,10 @@ void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes) {
     const double sum = xx + yy + zz;
     const auto moments = principal({xx, xy, xz, xy, yy, yz, xz, yz, zz});
     if (possible(moments)) return;
-    if (sum > 0.0) {
+    if (const double rounding = rounding_of(moments); rounding > 0.0) {
+      rounded.push_back(name);
+      inertial.add_to_moments(rounding);
+    } else if (sum > 0.0) {
       balanced.push_back(name);
       inertial.set_moments(fmt::format("{:.6g}", sum / 3.0));
     } else {
@@ -185,6 +212,11 @@ void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes) {
     notes.add(Reading::replaced,
               fmt::format("principal moments of inertia that no body can have, by their mean: {}",
                           fmt::join(balanced, ", ")));
+  if (!rounded.empty())
+    notes.add(Reading::replaced,
+              fmt::format("moments of inertia that are too unequal by less than a hundredth, "
+                          "by ones that a body can have: {}",
+                          fmt::join(rounded, ", ")));
   if (!negative.empty())
     notes.add(Reading::replaced,
               fmt::format("negative masses or moments of inertia, which are taken as not given: {}",

@@ -227,6 +227,7 @@ class Compiler {
     static const std::map<std::string, std::string> meanings{
         {"actuatorfrcrange", "read by `amble robot --init` as the largest torque of a motor"},
         {"kv", "read by `amble robot --init` as the damping of a servo"},
+        {"dampratio", "read by `amble robot --init` as the damping of a servo"},
         {"inheritrange", "the range of command is in the robot file"},
         {"gravcomp", "gravity is not compensated in amble"},
         {"actuatorgravcomp", "gravity is not compensated in amble"}};

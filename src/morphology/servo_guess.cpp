@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "amble/core/index.hpp"
 #include "amble/io/text.hpp"
@@ -36,7 +37,7 @@ double rounded(double value) {
 
 /// What an actuator of the model does to a joint: torque = gain × control − kp × angle − kv × speed.
 struct Actuator {
-  double gain = 0.0, kp = 0.0, kv = 0.0;
+  double gain = 0.0, kp = 0.0, kv = 0.0, gear = 1.0;
   double max_torque_nm = 0.0;  ///< to the weaker side, if it has two; 0: not limited
   std::string uneven;          ///< its range of force, if it is not the same to both sides
   double control_limit = 0.0;  ///< to the weaker side likewise; 0: not limited
@@ -49,6 +50,7 @@ Actuator read(const mjModel& model, int a) {
   const mjtNum* bias = model.actuator_biasprm + mjNBIAS * a;
   Actuator actuator;
   actuator.is_geared = gear != 1.0;
+  actuator.gear = gear;
   actuator.gain = std::abs(model.actuator_gainprm[mjNGAIN * a]) * gear;
   if (model.actuator_biastype[a] == mjBIAS_AFFINE) {
     actuator.kp = std::max(0.0, -bias[1]) * gear * gear;
@@ -95,6 +97,10 @@ class ServoGuesser {
     if (const std::vector<int> actuators = servo_actuators(model, model_joint); !actuators.empty()) {
       Actuator actuator = read(model, actuators.front());
       for (std::size_t k = 1; k < actuators.size(); ++k) actuator.kv += read(model, actuators[k]).kv;
+      hint.kv_nm_s_per_rad *= actuator.gear * actuator.gear;
+      if (hint.damping_ratio > 0.0)  // of the critical damping, as newer MuJoCos compute it
+        hint.kv_nm_s_per_rad =
+            2.0 * hint.damping_ratio * std::sqrt(actuator.kp * model.dof_M0[model.jnt_dofadr[model_joint]]);
       ServoGuess guessed = actuator.kp > 0.0   ? of_position(actuator, hint, damping)
                            : actuator.kv > 0.0 ? of_velocity(actuator, hint)
                                                : of_motor(actuator, hint, damping);
@@ -123,14 +129,24 @@ class ServoGuesser {
   }
 
   /// The largest torque, and where it comes from.
-  std::pair<double, std::string> limit(const Actuator& actuator, const MotorHint& hint) const {
-    if (!actuator.uneven.empty() && actuator.max_torque_nm > 0.0)
-      return {actuator.max_torque_nm,
-              fmt::format("the weaker side of the actuator's force range, {}", actuator.uneven)};
-    if (actuator.max_torque_nm > 0.0) return {actuator.max_torque_nm, "the actuator's force range"};
-    if (hint.max_torque_nm > 0.0) return {hint.max_torque_nm, "the joint's actuatorfrcrange"};
-    return {enough(),
-            fmt::format("not in the model: {} × what bears a leg's share of the weight", enough_times)};
+  using Limit = std::pair<double, std::string>;
+
+  /// The smallest limit that the model has.
+  Limit limit(const Actuator& actuator, const MotorHint& hint, const Limit& by_control = {}) const {
+    Limit least{enough(),
+                fmt::format("not in the model: {} × what bears a leg's share of the weight", enough_times)};
+    bool is_known = false;
+    const auto take = [&](double torque_nm, std::string source) {
+      if (torque_nm > 0.0 && (!is_known || torque_nm < least.first)) least = {torque_nm, std::move(source)};
+      is_known = is_known || torque_nm > 0.0;
+    };
+    take(actuator.max_torque_nm,
+         actuator.uneven.empty()
+             ? "the actuator's force range"
+             : fmt::format("the weaker side of the actuator's force range, {}", actuator.uneven));
+    take(by_control.first, by_control.second);
+    take(hint.max_torque_nm, "the joint's actuatorfrcrange");
+    return least;
   }
 
   ServoGuess of_position(const Actuator& actuator, const MotorHint& hint, double damping) const {
@@ -197,16 +213,13 @@ class ServoGuesser {
   }
 
   ServoGuess of_motor(const Actuator& actuator, const MotorHint& hint, double damping) const {
-    auto [most, source] = limit(actuator, hint);
-    const double by_control = actuator.control_limit * actuator.gain;
-    const bool is_by_control = actuator.max_torque_nm == 0.0 && by_control > 0.0;
-    if (is_by_control) {
-      most = by_control;
-      source = actuator.uneven_control.empty()
-                   ? "the actuator's control range × gear"
-                   : fmt::format("the weaker side of the actuator's control range × gear, {}",
-                                 actuator.uneven_control);
-    }
+    const Limit by_control{actuator.control_limit * actuator.gain,
+                           actuator.uneven_control.empty()
+                               ? "the actuator's control range × gear"
+                               : fmt::format("the weaker side of the actuator's control range × gear, {}",
+                                             actuator.uneven_control)};
+    const auto [most, source] = limit(actuator, hint, by_control);
+    const bool is_by_control = by_control.first > 0.0 && source == by_control.second;
     const double kp = bearing_nm_ / bearing_error_rad;
     const double kd = std::max(0.0, damping_time_s * kp - damping);
     return {.servo = torque(most, kp, kd),

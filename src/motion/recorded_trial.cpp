@@ -190,6 +190,7 @@ RecordedTrial read_recorded_trial(const std::filesystem::path& path) {
   Motion& motion = recorded.motion;
   motion.frame_s = header.frame_s;
   motion.com_start_m = robot::start_com_m(recorded.robot);
+  if (const auto& start = header.com_start_m) motion.com_start_m = {(*start)[0], (*start)[1], (*start)[2]};
   const FrameColumns columns(reader, recorded.robot);
   columns.prepare(motion);
   // The outcome of a trial with a frame that is not finite is `diverged`.

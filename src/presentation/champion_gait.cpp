@@ -16,7 +16,7 @@ std::optional<ChampionGait> champion_gait(const experiment::Champion& champion, 
   if (!shown) return std::nullopt;
   experiment::Problem problem = champion.problem;
   problem.noise = shown->noise;
-  experiment::GaitObserver observer(problem.robot, problem.trial.timestep_s, settings);
+  experiment::GaitObserver observer(problem, settings);
   const auto replay = experiment::replay(problem, champion.genome,
                                          {.seconds = seconds,
                                           .engine = engine,

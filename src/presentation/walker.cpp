@@ -78,7 +78,7 @@ std::optional<page::Walker> walk(const experiment::Champion& champion, const std
 std::optional<page::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
                                  const std::string& origin, const WalkOptions& options,
                                  const std::filesystem::path& recording, const std::atomic<bool>& stop) {
-  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem, {});
   const auto replay = experiment::replay(problem, genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,

@@ -34,6 +34,13 @@ RecordingHeader parse_header(std::string_view text, const std::string& what) {
   header.controller_json = embedded_json(view.at("controller"));
   if (view.has("ground")) header.ground_json = embedded_json(view.at("ground"));
   if (view.has("damage")) header.damage_json = embedded_json(view.at("damage"));
+  if (view.has("com_start_m")) {
+    const io::JsonView start = view.at("com_start_m");
+    if (start.size() != 3) start.bad("a list of 3 numbers");
+    header.com_start_m.emplace();
+    for (std::size_t i = 0; i < 3; ++i) (*header.com_start_m)[i] = start.at(i).number();
+  }
+  if (view.has("mass_kg")) header.mass_kg = view.at("mass_kg").number();
   header.origin = view.at("origin").text();
   return header;
 }
@@ -51,6 +58,8 @@ std::string header_json(const RecordingHeader& header) {
     json["ground"] = io::parse_json(header.ground_json, "ground of a recording");
   if (!header.damage_json.empty())
     json["damage"] = io::parse_json(header.damage_json, "damage of a recording");
+  if (header.com_start_m) json["com_start_m"] = *header.com_start_m;
+  if (header.mass_kg) json["mass_kg"] = *header.mass_kg;
   json["origin"] = header.origin;
   return io::json_text(json);
 }

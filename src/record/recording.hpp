@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,9 @@ struct RecordingHeader {
   std::string origin;                ///< the champion it was made from, for titles
   std::string ground_json = {};      ///< ground::to_json of uneven ground; empty: the plane z = 0
   std::string damage_json = {};      ///< damage::Settings of a damaged robot; `robot_json` is intact
+  /// Centre of mass before the first step, and mass, where the robot does not begin as `robot_json` says.
+  std::optional<std::array<double, 3>> com_start_m = {};
+  std::optional<double> mass_kg = {};
 };
 
 /// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint

@@ -120,8 +120,9 @@ std::string test_table(const Report& report, const std::string& test) {
 std::string typical_section(const Report& report) {
   std::string content;
   for (const TypicalTable& typical : report.typical) {
-    content += subtitle(fmt::format("In {}{}", time_text(typical.trial_s),
-                                    typical.engine.empty() ? "" : " in the engine " + typical.engine));
+    content += subtitle(fmt::format("In {}{}{}", time_text(typical.trial_s),
+                                    typical.engine.empty() ? "" : " in the engine " + typical.engine,
+                                    typical.as_in.empty() ? "" : ", as in the test " + typical.as_in));
     content += paragraph(levels_text(typical));
     if (typical.columns.size() > 1)
       content += figure([&](figures::FigureSize layout) { return typical_figure(report, typical, layout); },

@@ -15,10 +15,11 @@ std::string reference_measure(const StudyData& data, const ledger::TestSpec& tes
     const auto* at_home = data.result(run, other.name);
     if (at_home && at_home->engine == run.engine && at_home->trial_s == result->trial_s &&
         other.noise == test.noise && other.level == test.level && other.ground == test.ground &&
-        other.damage == test.damage && other.episodes == test.episodes)
+        other.damage == test.damage && other.command == test.command && other.episodes == test.episodes)
       return other.name + ".distance_m";
   }
-  const bool as_in_evolution = !test.is_disturbed() && test.ground.empty() && test.damage.empty();
+  const bool as_in_evolution =
+      !test.is_disturbed() && test.ground.empty() && test.damage.empty() && test.command.empty();
   return as_in_evolution && ledger::evolution_trial_s(run) == result->trial_s &&
                  ledger::objective_of(run).is_distance
              ? "train_m"

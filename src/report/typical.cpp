@@ -14,7 +14,13 @@ namespace {
 
 /// Whether two tests differ in nothing but noise, level and episodes.
 bool is_alike(const ledger::TestSpec& a, const ledger::TestSpec& b) {
-  return a.engine == b.engine && a.seconds == b.seconds && a.ground == b.ground && a.damage == b.damage;
+  return a.engine == b.engine && a.engine_own == b.engine_own && a.seconds == b.seconds &&
+         a.ground == b.ground && a.damage == b.damage && a.command == b.command;
+}
+
+/// Whether it is a trial as evolution has it, but for engine, length and noise.
+bool is_plain(const ledger::TestSpec& test) {
+  return test.engine_own.empty() && test.ground.empty() && test.damage.empty() && test.command.empty();
 }
 
 /// Whether the run's distance in evolution is that of an undisturbed trial of that length.
@@ -27,7 +33,7 @@ bool walked_undisturbed(const ledger::Record& run, double seconds) {
 std::string undisturbed_measure(const StudyData& data, const ledger::TestSpec& levelled) {
   for (const ledger::TestSpec& test : data.study.tests)
     if (!test.is_disturbed() && is_alike(test, levelled)) return test.name + ".distance_m";
-  const bool at_home = levelled.engine.empty() && levelled.ground.empty() && levelled.damage.empty();
+  const bool at_home = levelled.engine.empty() && is_plain(levelled);
   const bool undisturbed = std::ranges::all_of(data.records, [&](const ledger::Record& run) {
     return !levelled.applies_to(run.condition) || walked_undisturbed(run, levelled.seconds);
   });
@@ -66,7 +72,11 @@ std::optional<TypicalPoint> make_point(const StudyData& data, const std::string&
 }
 
 TypicalTable make_table(const StudyData& data, const ledger::TestSpec& first) {
-  TypicalTable table{.engine = first.engine, .trial_s = first.seconds, .columns = {}, .curves = {}};
+  TypicalTable table{.engine = first.engine,
+                     .trial_s = first.seconds,
+                     .as_in = is_plain(first) ? "" : first.name,
+                     .columns = {},
+                     .curves = {}};
   if (const std::string measure = undisturbed_measure(data, first); !measure.empty())
     table.columns.push_back({.measure = measure, .level = ""});
   const auto undisturbed = static_cast<std::ptrdiff_t>(table.columns.size());
@@ -96,7 +106,8 @@ const TypicalPoint* TypicalCurve::at(std::size_t column) const {
 }
 
 std::string TypicalTable::name() const {
-  return fmt::format("typical-{}s{}{}", trial_s, engine.empty() ? "" : "-", engine);
+  return fmt::format("typical-{}s{}{}{}{}", trial_s, engine.empty() ? "" : "-", engine,
+                     as_in.empty() ? "" : "-", as_in);
 }
 
 std::string_view disturbance_name(const TypicalTable::Column& column) {

@@ -36,10 +36,12 @@ struct TypicalTable {
 
   std::string engine;  ///< empty: that of the runs
   double trial_s = 0.0;
+  /// The first of its tests, if they have a ground, damage, command or settings of the engine of their own.
+  std::string as_in;
   std::vector<Column> columns;       ///< undisturbed first, if that was measured; then the weakest level on
   std::vector<TypicalCurve> curves;  ///< in the order of the study; of conditions with a level
 
-  /// "typical-15s", "typical-15s-ode": for files.
+  /// "typical-15s", "typical-15s-ode", "typical-15s-uphill": for files.
   std::string name() const;
 };
 

@@ -47,9 +47,10 @@ std::string line_of(const StudyData& data, const ClaimSpec& claim) {
     if (std::string line = too_few(claim, data.planned(claim.condition)); !line.empty()) return line;
   std::size_t least = data.planned(claim.condition);
   std::string fewest = claim.condition;
-  if (!claim.against.empty() && data.planned(claim.against) < least) {
-    least = data.planned(claim.against);
-    fewest = claim.against;
+  const std::string& other = claim.against.empty() ? claim.threshold_condition : claim.against;
+  if (!other.empty() && data.planned(other) < least) {
+    least = data.planned(other);
+    fewest = other;
   }
   std::size_t needed = fewest_runs(claim.kind);
   if (claim.kind == ClaimKind::difference && claim.test == ledger::TwoSampleTest::mann_whitney &&

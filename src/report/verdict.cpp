@@ -61,9 +61,10 @@ void conclude_differences(const std::vector<ledger::ClaimSpec>& claims, ledger::
 /// Takes back what too few runs say.
 void need_enough_runs(const StudyData& data, const ledger::ClaimSpec& claim, Judgement& judgement) {
   if (judgement.verdict == Verdict::not_testable) return;
+  const std::string& other = claim.against.empty() ? claim.threshold_condition : claim.against;
   std::string lacking = too_few(data, claim.condition, judgement.n, fewest_judged);
   if (lacking.empty() && judgement.planned_against > 0)
-    lacking = too_few(data, claim.against, judgement.n_against, fewest_judged);
+    lacking = too_few(data, other, judgement.n_against, fewest_judged);
   if (lacking.empty()) return;
   judgement.verdict = Verdict::not_confirmed;
   judgement.reason = lacking + " " + judgement.reason;

@@ -55,14 +55,26 @@ void conclude_published_count(const ClaimSpec& claim, const statistics::Count& o
                       : "No difference was found, which does not prove that there is none.");
 }
 
-/// The threshold of a count; nothing, with the reason, if it cannot be had.
-std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim, std::string& reason) {
+/// The threshold of a count; nothing, with the reason in the judgement, if it cannot be had.
+std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim, Judgement& judgement) {
   if (claim.threshold_condition.empty()) return claim.threshold;
   const auto others = data.values(claim.threshold_condition, claim.measure);
-  reason = too_few(data, claim.threshold_condition, others.size(), 2);
-  if (reason.empty()) reason = without_mean(data, claim.threshold_condition, others);
-  if (!reason.empty()) return std::nullopt;
+  judgement.n_against = others.size();
+  judgement.planned_against = data.planned(claim.threshold_condition);
+  judgement.reason = too_few(data, claim.threshold_condition, others.size(), 2);
+  if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.threshold_condition, others);
+  if (!judgement.reason.empty()) return std::nullopt;
   return statistics::mean(others);
+}
+
+/// Takes back what is said while runs are missing whose mean is the threshold.
+void await_threshold(const StudyData& data, const ClaimSpec& claim, Judgement& judgement) {
+  const std::size_t missing = judgement.planned_against - judgement.n_against;
+  if (claim.threshold_condition.empty() || missing == 0) return;
+  judgement.verdict = Verdict::not_testable;
+  judgement.reason =
+      fmt::format("The threshold is that of {} so far: {} of it missing move it.",
+                  data.study.find(claim.threshold_condition)->label(), counted(missing, "run"));
 }
 
 /// Which regular gaits occur that should not, or should and do not.
@@ -87,7 +99,7 @@ Judgement judge_count(const StudyData& data, const ClaimSpec& claim, const std::
   judgement.quantity = "share of runs";
   judgement.reason = too_few(data, claim.condition, judgement.n, 1);
   if (!judgement.reason.empty()) return judgement;
-  const auto threshold = threshold_of(data, claim, judgement.reason);
+  const auto threshold = threshold_of(data, claim, judgement);
   if (!threshold) return judgement;
   const auto successes =
       to_index(std::ranges::count_if(sample, [&](double value) { return value >= *threshold; }));
@@ -105,6 +117,7 @@ Judgement judge_count(const StudyData& data, const ClaimSpec& claim, const std::
     conclude_published_count(claim, ours, judgement);
   else
     conclude_bounded_count(claim, successes, judgement);
+  await_threshold(data, claim, judgement);
   return judgement;
 }
 

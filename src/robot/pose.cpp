@@ -44,6 +44,11 @@ std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<c
   return poses;
 }
 
+bool starts_elsewhere(Vec3 com_m, Vec3 start_com_m) {
+  constexpr double rounding_m = 1e-5;
+  return !(norm(com_m - start_com_m) <= rounding_m);
+}
+
 Vec3 start_com_m(const RobotSpec& robot) {
   const std::vector<Pose> poses = start_poses(robot);
   Vec3 moment;

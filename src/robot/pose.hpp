@@ -33,6 +33,9 @@ Pose pose_along(const RobotSpec& robot, int body, const Pose& parent, std::span<
 
 /// Centre of mass of the whole robot in the start pose, in the world.
 Vec3 start_com_m(const RobotSpec& robot);
+/// Whether a robot with this centre of mass begins elsewhere than at `start_com_m`, by more than engines
+/// round.
+bool starts_elsewhere(Vec3 com_m, Vec3 start_com_m);
 
 /// Centre of a geom in the world, with the bodies at `poses` (all of them, as poses_at() gives them).
 Vec3 centre_m(const Geom& geom, std::span<const Pose> poses);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -11,6 +13,19 @@
 
 namespace amble::score {
 namespace {
+
+/// Their mean; of a circular quantity the short way round from the first one.
+double mean_of(std::vector<double> values, const Quantity& quantity, int leg) {
+  const double turn = quantity.range.highest - quantity.range.lowest;
+  const bool circular = quantity.circular && (!quantity.of_legs || leg >= 0);  // not a mean over legs
+  if (circular)
+    for (double& value : values) value -= turn * std::round((value - values.front()) / turn);
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  const double mean = sum / static_cast<double>(values.size());
+  if (!circular || (mean >= quantity.range.lowest && mean <= quantity.range.highest)) return mean;
+  return mean < quantity.range.lowest ? mean + turn : mean - turn;
+}
 
 class NoBehaviour final : public Behaviour {
  public:
@@ -81,9 +96,10 @@ std::vector<float> DescriptorBehaviour::of(std::span<const record::Trajectory> e
   for (const Dimension& dimension : dimensions_) {
     const Context context{
         .settings = score_, .duration_s = duration_s_, .weight_n = weight_n_, .leg = dimension.leg};
-    double sum = 0.0;
-    for (const record::Trajectory& episode : episodes) sum += dimension.quantity->of(episode, context);
-    means.push_back(static_cast<float>(sum / static_cast<double>(episodes.size())));
+    std::vector<double> values;
+    for (const record::Trajectory& episode : episodes)
+      values.push_back(dimension.quantity->of(episode, context));
+    means.push_back(static_cast<float>(mean_of(values, *dimension.quantity, dimension.leg)));
   }
   return means;
 }

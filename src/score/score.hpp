@@ -79,7 +79,8 @@ struct Quantity {
   /// Its value, finite and in the range, whatever the trial: also for one of no steps. An AMBLE_CHECK fails
   /// where one that was added is not. Const, called by several threads at once.
   std::function<double(const record::Trajectory& trajectory, const Context& context)> of;
-  bool of_legs = false;  ///< whether it is a quantity of one leg, or the mean over legs
+  bool of_legs = false;   ///< whether it is a quantity of one leg, or the mean over legs
+  bool circular = false;  ///< whether `range` is a turn, whose ends are the same
 };
 
 /// Adds a quantity, from then on one of those that configs can name. Before the first config is read; not

@@ -23,12 +23,22 @@ double thousandths(double value) {
   return std::round(value * 1000.0) / 1000.0;
 }
 
+/// Steps from one sample of a path to the next.
+int stride_of(double interval_s, double timestep_s) {
+  return std::max(1, static_cast<int>(std::lround(interval_s / timestep_s)));
+}
+
+/// About `interval_s`, and a whole number of steps.
+double sampled_interval_s(double interval_s, double timestep_s) {
+  const double whole_s = stride_of(interval_s, timestep_s) * timestep_s;
+  return std::abs(whole_s - interval_s) < 1e-9 ? interval_s : whole_s;
+}
+
 /// Measures how long a robot walks, and samples its path.
 class WalkObserver : public trial::Observer {
  public:
   WalkObserver(double timestep_s, double interval_s)
-      : timestep_s_(timestep_s),
-        stride_(std::max(1, static_cast<int>(std::lround(interval_s / timestep_s)))) {}
+      : timestep_s_(timestep_s), stride_(stride_of(interval_s, timestep_s)) {}
 
   void on_step(int step, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
                int lane) override {
@@ -145,7 +155,8 @@ std::optional<FirstReach> first_to_reach(const PlannedTest& test, const experime
 std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
                                            const std::atomic<bool>& stop) {
   const experiment::Problem problem = test.problem(champion.problem);
-  const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));
+  const double interval_s = sampled_interval_s(
+      std::max(1.0, std::ceil(test.spec.seconds / most_path_samples)), problem.trial.timestep_s);
   ledger::TestResult result{.name = test.spec.name,
                             .settings = test.settings_hash(champion.problem.engine),
                             .engine = problem.engine,
@@ -159,7 +170,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .reached = {},
                             .champion_score = 0.0,
                             .mutants = {}};
-  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem, {});
   std::vector<WalkObserver> walks(to_index(test.spec.episodes),
                                   WalkObserver(problem.trial.timestep_s, interval_s));
   trial::ObserverList first;

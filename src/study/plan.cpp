@@ -188,21 +188,34 @@ bool has_timers(const PlannedCondition& condition) {
                              [](const std::string& name) { return name.starts_with("timer."); });
 }
 
-/// Throws UserError: a claim is about jumps from cycle to cycle of a condition whose legs have no cycles.
-void check_seam_claims(const Plan& plan) {
+/// Why runs of a condition never have a measure; empty if they may.
+std::string why_never(const PlannedCondition& condition, std::string_view measure) {
+  if (ledger::is_of_seam(measure) && !has_timers(condition))
+    return fmt::format(
+        "the controller of condition '{}' is of kind {}, which has no cycles that targets could jump between",
+        condition.spec.name, condition.config.controller.kind);
+  if (ledger::is_of_map(measure) && condition.config.search.kind != "map-elites")
+    return fmt::format("the search of condition '{}' is of kind {}, which fills no map", condition.spec.name,
+                       condition.config.search.kind);
+  return {};
+}
+
+/// Throws UserError: a claim is about what a condition's runs never have.
+void check_measures(const Plan& plan) {
   for (std::size_t i = 0; i < plan.study.claims.size(); ++i) {
     const ledger::ClaimSpec& claim = plan.study.claims[i];
     for (const PlannedCondition& condition : plan.conditions) {
       const std::string& name = condition.spec.name;
-      if (!ledger::is_of_seam(claim.measure) || (claim.condition != name && claim.against != name) ||
-          has_timers(condition))
-        continue;
-      const std::string key = fmt::format("claims[{}].measure", i);
-      throw plan.study.error_at(
-          key,
-          fmt::format("'{}' = \"{}\": the controller of condition '{}' is of kind {}, which has no cycles "
-                      "that targets could jump between; expected another measure or condition",
-                      key, claim.measure, name, condition.config.controller.kind));
+      if (name != claim.condition && name != claim.against && name != claim.threshold_condition) continue;
+      for (const auto& [which, measure] :
+           {std::pair("measure", claim.measure), std::pair("base_measure", claim.base_measure)}) {
+        const std::string never = why_never(condition, measure);
+        const std::string key = fmt::format("claims[{}].{}", i, which);
+        if (!never.empty())
+          throw plan.study.error_at(
+              key,
+              fmt::format("'{}' = \"{}\": {}; expected another measure or condition", key, measure, never));
+      }
     }
   }
 }
@@ -360,7 +373,7 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
     seeds.push_back(study.seeds_of(study.conditions[i]));
     most_seeds = std::max(most_seeds, seeds.back().size());
   }
-  check_seam_claims(plan);
+  check_measures(plan);
   for (std::size_t s = 0; s < most_seeds; ++s)
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const std::size_t condition = (i + s) % seeds.size();

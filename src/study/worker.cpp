@@ -114,7 +114,9 @@ class Worker {
     if (!experiment::is_run_folder(folder)) return;
     try {
       const io::FolderLock lock(folder);
-      std::filesystem::remove_all(folder);
+      std::error_code error;
+      std::filesystem::remove_all(folder, error);
+      if (error) fail(ExitCode::io, "cannot remove {}: {}", folder.string(), error.message());
     } catch (const UserError& error) {
       if (error.code() != ExitCode::locked) throw;
     }

@@ -12,9 +12,9 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
                  {"what counts of the scores of an evaluation's episodes"});
   visitor.flag("first_undisturbed", first_undisturbed,
                {"whether the first episode is without noise, so that no gait comes to need it"});
-  visitor.number(
-      "push_m_s", push_m_s, {0.0, 100.0},
-      {"pushes: largest horizontal impulse, divided by the robot's whole mass, m/s; acts on the root"});
+  visitor.number("push_m_s", push_m_s, {0.0, 100.0},
+                 {"pushes: largest horizontal impulse, divided by the whole mass of the intact robot, m/s; "
+                  "acts on the root"});
   visitor.number("push_interval_s", push_interval_s, {1e-5, 1e6},
                  {"one push, at a random moment, in each such interval, s"});
   visitor.number("start_joint_rad", start_joint_rad, {0.0, 0.5},

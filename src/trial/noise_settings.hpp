@@ -29,7 +29,8 @@ struct NoiseSettings {
   int episodes = 1;                         ///< trials per evaluation, 1 … 1000
   EpisodeScore score = EpisodeScore::mean;  ///< what counts of their scores
   bool first_undisturbed = false;  ///< whether the first is without noise; then there are two at least
-  /// Largest impulse on the root, along the plane of the ground, / the robot's whole mass, 0 … 100.
+  /// Largest impulse on the root, along the plane of the ground, / the whole mass of the intact robot, 0 …
+  /// 100.
   double push_m_s = 0.0;
   double push_interval_s = 2.0;  ///< one push in each such interval, at a random moment, 1e−5 … 1e6
   double start_joint_rad = 0.0;  ///< start: each joint turned by up to ± this, within its stops, 0 … 0.5

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "amble/core/check.hpp"
+#include "amble/robot/pose.hpp"
+
 namespace amble::trial {
 namespace {
 
@@ -45,9 +48,22 @@ void EventObserver::on_step(int, const physics::Engine&, const controllers::Batc
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                                      const robot::RobotSpec& robot, const physics::Engine& engine,
                                      const controllers::Batch& controllers, const CommandSchedule* commands)
-    : writer_(path, with_columns(std::move(header), robot, engine, controllers, commands != nullptr)),
+    : path_(path),
+      header_(with_columns(std::move(header), robot, engine, controllers, commands != nullptr)),
+      com_start_m_(robot::start_com_m(robot)),
       state_count_(controllers.state_names().size()),
       commands_(commands) {}
+
+void RecordingObserver::on_start(const physics::Engine& engine, int lane) {
+  const Vec3 com_m = engine.com_m(lane);
+  if (robot::starts_elsewhere(com_m, com_start_m_)) header_.com_start_m = {com_m.x, com_m.y, com_m.z};
+  writer_.emplace(path_, header_);
+}
+
+void RecordingObserver::finish(record::Outcome outcome) {
+  AMBLE_CHECK(writer_, "a trial was begun");
+  writer_->finish(outcome);
+}
 
 void RecordingObserver::on_step(int step, const physics::Engine& engine,
                                 const controllers::Batch& controllers, const LaneArray& targets_rad,
@@ -73,7 +89,11 @@ void RecordingObserver::on_step(int step, const physics::Engine& engine,
     const Command command = commands_->at(step - 1);
     frame_.insert(frame_.end(), {command.speed_m_s, command.turn_rad_s});
   }
-  writer_.add(frame_);
+  writer_->add(frame_);
+}
+
+void ObserverList::on_start(const physics::Engine& engine, int lane) {
+  for (Observer* observer : observers_) observer->on_start(engine, lane);
 }
 
 void ObserverList::on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,17 +42,24 @@ class EventObserver : public Observer {
 /// Writes every step of a trial to a recording (record/recording.hpp).
 class RecordingObserver : public Observer {
  public:
-  /// `header` with everything but the columns. Motor torques and loads of feet are recorded if the engine
-  /// measures them, and `commands` (not copied) if there are any.
+  /// `header` with everything but the columns and the start; `robot` is intact, or as the header has it.
+  /// Motor torques and loads of feet are recorded if the engine measures them, and `commands` (not copied) if
+  /// there are any.
   RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                     const robot::RobotSpec& robot, const physics::Engine& engine,
                     const controllers::Batch& controllers, const CommandSchedule* commands = nullptr);
+  /// Opens the file: throws UserError(ExitCode::io).
+  void on_start(const physics::Engine& engine, int lane) override;
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
-  void finish(record::Outcome outcome) { writer_.finish(outcome); }
+  /// AMBLE_CHECK: a trial was begun.
+  void finish(record::Outcome outcome);
 
  private:
-  record::RecordingWriter writer_;
+  std::filesystem::path path_;
+  record::RecordingHeader header_;
+  Vec3 com_start_m_;
+  std::optional<record::RecordingWriter> writer_;
   std::size_t state_count_;
   const CommandSchedule* commands_;
   std::vector<float> frame_;
@@ -61,6 +69,7 @@ class RecordingObserver : public Observer {
 class ObserverList : public Observer {
  public:
   void add(Observer& observer) { observers_.push_back(&observer); }
+  void on_start(const physics::Engine& engine, int lane) override;
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
 

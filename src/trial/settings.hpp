@@ -11,7 +11,8 @@ namespace amble::trial {
 enum class FirstCommand {
   before_first_step,  ///< tick 1 reads the start pose and commands step 1
   /// Tick 1 reads the sensors after step 1 and commands step 2 (the authors' code). In step 1 the motors hold
-  /// each joint where it is, with all their torque.
+  /// each joint where it is, with all their torque; with latency they hold the joints at 0 until that
+  /// arrives.
   after_first_step
 };
 /// As configs write them, by FirstCommand.

@@ -101,6 +101,7 @@ void Runner::refill(int lane, TaskQueue& queue) {
   }
   senses_.load(lane, *engine_, task->scenario, commands_of(*task));
   slot.task = std::move(*task);
+  if (slot.task.observer) slot.task.observer->on_start(*engine_, lane);
   controllers_.load(lane, *slot.task.parameters);
   note_start(slot, lane);
 }

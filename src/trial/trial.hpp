@@ -30,6 +30,8 @@ struct EventCount {
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// The robot was placed, before the first step.
+  virtual void on_start(const physics::Engine& /*engine*/, int /*lane*/) {}
   /// After every step in which the simulation stayed healthy, the last included. `step` counts from 1.
   /// `targets_rad` are those of this step.
   virtual void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,

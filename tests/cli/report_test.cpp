@@ -143,7 +143,7 @@ TEST_F(ReportCommand, ChecksAllItsOutputsBeforeItWritesAny) {
       {"none.html", {"--csv", ""}, "--csv: expected the name of a folder"},
       {"none.html", {"--figures", ""}, "--figures: expected the name of a folder"},
       {"none.html", {"--json", ""}, "--json: expected the name of a file"},
-      {"none.html", {"--json", *shared_ / "file/below.json"}, "cannot make folder"},
+      {"none.html", {"--json", *shared_ / "file/below.json"}, "Not a directory"},
       {"folder", {}, "folder is a folder: name a file"}};
   for (const auto& [out, more, message] : cases) {
     const auto refused = report("s", out, more);

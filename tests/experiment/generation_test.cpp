@@ -48,6 +48,15 @@ TEST(Finalists, AreAtLeastOneAndOfEqualsTheFirst) {
   EXPECT_THAT(finalists_of(std::array{1.0, 2.0, 2.0}, 1e-6), ElementsAre(1u));
 }
 
+TEST(Generation, BestIsAFinalistEvenIfOthersCountAsMuch) {
+  EvaluatedGeneration evaluated{.result = {}, .objectives = {0.5, 0.2, 0.5, 0.1}};
+  EXPECT_EQ(evaluated.best(), 0u);
+  evaluated.finalists = {2};
+  EXPECT_EQ(evaluated.best(), 2u);
+  evaluated.finalists = {1, 2, 3};
+  EXPECT_EQ(evaluated.best(), 2u);
+}
+
 TEST(EvaluatedGeneration, OfFinalistsCountsAllTheirTrialsAndOfOthersNoMoreThanTheWorstOfThem) {
   const Config plain = noisy_config(),
                halved = noisy_config({"evaluation.finalists=0.2", "evaluation.finalist_episodes=5"});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/random.hpp"
 
@@ -100,6 +101,17 @@ TEST(MakeField, HasStepsAndWallsWhereTheSettingsPutThem) {
   EXPECT_EQ(hurdles.at(1.2, 0.1).height_m, 0.0);
 }
 
+TEST(MakeField, MissesNoWallBetweenTwoPlaces) {
+  Settings settings;
+  settings.kind = "hurdles";
+  settings.cell_m = 0.1;
+  settings.length_m = 1.0;
+  EXPECT_THROW(settings.validate(), SettingError);
+  settings.cell_m = hurdle_m;
+  EXPECT_NO_THROW(settings.validate());
+  EXPECT_GT(make_field(settings, {}).highest_m(), 0.0f);
+}
+
 TEST(MakeField, GivesTheSameGroundForEver) {
   std::string hashes;
   for (const std::string& kind : with_field)
@@ -130,6 +142,8 @@ TEST(MakeField, GrowsOverTheGenerationsOfACurriculum) {
   const std::array<std::pair<unsigned, float>, 4> heights{{{0, 0.0f}, {3, 0.03f}, {10, 0.1f}, {500, 0.1f}}};
   for (const auto& [generation, height_m] : heights)
     EXPECT_FLOAT_EQ(make_field(settings, {.generation = generation}).highest_m(), height_m);
+  EXPECT_FLOAT_EQ(make_field(settings, {.generation = 0, .set = 1}).highest_m(), 0.1f)
+      << "what judges champions has the whole height";
 }
 
 TEST(Normalised, IsTheSameForKeysOfTheSameFieldAndForNoOthers) {

@@ -151,14 +151,14 @@ TEST(AtomicFile, ShowsItselfOnlyWhenCommitted) {
   {
     AtomicFile abandoned(folder / "g");
     abandoned.write("x");
-    EXPECT_THAT(folder.entries(), UnorderedElementsAre("f", "g.tmp." + std::to_string(::getpid())));
+    EXPECT_THAT(folder.entries(), UnorderedElementsAre("f", temporary_of("g").string()));
   }
   EXPECT_THAT(folder.entries(), ElementsAre("f"));
 }
 
 TEST(AtomicFile, ReplacesWhatAKilledProcessOfTheSameNumberLeftBehind) {
   const test::TemporaryFolder folder;
-  folder.put("f.tmp." + std::to_string(::getpid()), "a long remainder");
+  folder.put(temporary_of("f").string(), "a long remainder");
   write_file(folder / "f", "new");
   EXPECT_EQ(read_file(folder / "f"), "new");
   EXPECT_THAT(folder.entries(), ElementsAre("f"));
@@ -167,6 +167,7 @@ TEST(AtomicFile, ReplacesWhatAKilledProcessOfTheSameNumberLeftBehind) {
 TEST(DestinationOf, IsKnownOfTemporaryFilesOnly) {
   EXPECT_EQ(destination_of("runs/1/a.json.tmp.4711"), std::filesystem::path("runs/1/a.json"));
   EXPECT_EQ(destination_of("a.tmp.1.tmp.2"), std::filesystem::path("a.tmp.1"));
+  EXPECT_EQ(destination_of(temporary_of("runs/1/a.json")), std::filesystem::path("runs/1/a.json"));
   for (const auto* other : {"a.json", "a.json.tmp.", "a.json.tmp.bak", "a.json.tmp.1x", "", "a.tmp.-1"})
     EXPECT_FALSE(destination_of(other)) << other;
 }

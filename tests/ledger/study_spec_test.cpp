@@ -203,6 +203,30 @@ TEST(StudySpec, EveryConditionHasAConfigSeedsAndAName) {
         << name;
 }
 
+TEST(StudySpec, ARobotIsAKeyOfItsConditionWhichAPathFromTheFileIs) {
+  const std::string wrong = "expected 'robot' as a key of the condition, which is relative to the study file";
+  EXPECT_NE(diagnostic(replaced(good, "seeds = [1, 2]", "seeds = [1, 2]\nsettings = [\"robot = r.toml\"]"))
+                .find("s.toml:3: 'settings' has \"robot = r.toml\": " + wrong),
+            std::string::npos);
+  EXPECT_NE(
+      diagnostic(replaced(good, "config = \"a.toml\"", "config = \"a.toml\"\nsettings = [\"robot=r.toml\"]"))
+          .find("'conditions[0].settings' has \"robot=r.toml\": " + wrong),
+      std::string::npos);
+}
+
+TEST(StudySpec, BoundsOfACountAreWholeNumbersOfRuns) {
+  const auto counted = [](const std::string& bound) {
+    return diagnostic(
+        replaced(replaced(good, "kind = \"difference\"", "kind = \"count\"\nthreshold = 1\n" + bound),
+                 "against = \"b\"\n", ""));
+  };
+  EXPECT_EQ(counted("at_least = 2"), "");
+  EXPECT_NE(counted("at_least = 0.9").find("expected a whole number of runs for a count, not 0.9"),
+            std::string::npos);
+  EXPECT_NE(counted("at_most = 1.5").find("expected a whole number of runs for a count, not 1.5"),
+            std::string::npos);
+}
+
 TEST(StudySpec, AConditionSwitchesBetweenGaitsOrIsSteeredByHand) {
   const std::string switching = "config = \"a.toml\"\ngaits = 3", steered = "\nsteering = \"turn_gain = 1\"";
   const auto with = [](const std::string& text) {

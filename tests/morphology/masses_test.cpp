@@ -270,6 +270,25 @@ TEST(Masses, WithMomentsThatNoBodyHasAreTreatedAlikeInBothFormats) {
               HasSubstr("negative masses or moments of inertia, which are taken as not given: thigh"));
 }
 
+TEST(Masses, WithMomentsThatADigitMakesImpossibleKeepTheirShape) {
+  const Files files;
+  for (const char* moments :
+       {R"(diaginertia="1e-4 7e-4 8.001e-4")", R"(fullinertia="1e-4 7e-4 8.001e-4 0 0 0")"}) {
+    const ModelParts parts =
+        parts_of(files, "m.xml",
+                 with(one_leg_xml, thigh_geom,
+                      std::string("<inertial pos=\"0 0 -0.2\" mass=\"2\" ") + moments + "/>" + thigh_geom));
+    const Vec3 found = body(parts, "thigh").inertia_kg_m2;
+    std::array principal{found.x, found.y, found.z};
+    std::ranges::sort(principal);
+    EXPECT_NEAR(principal[0], 1e-4, 2e-7) << moments;
+    EXPECT_NEAR(principal[1], 7e-4, 2e-7);
+    EXPECT_NEAR(principal[2], 8e-4, 4e-7);
+    EXPECT_THAT(parts.notes.text(), HasSubstr("too unequal by less than a hundredth, by ones that a body can "
+                                              "have: thigh"));
+  }
+}
+
 TEST(Masses, WithMomentsOfABodyLargerThanTheRobotHaveThoseOfTheirShapesInBothFormats) {
   const Files files;
   const auto thigh = [&](const std::string& moment) {

@@ -146,6 +146,32 @@ TEST_F(Servos, OfAnUnevenRangeOfForceHaveItsWeakerSideAndAreNamed) {
   EXPECT_THAT(of(R"(forcerange="-5 5")").doubts, Not(named));
 }
 
+TEST_F(Servos, HaveTheSmallestOfAllLimitsOfTheirTorque) {
+  const auto most_of = [&](const std::string& actuator, const std::string& joint = "") {
+    std::string text = all(mjcf_with_actuators(""), "position joint", actuator + " joint");
+    text = all(text, "<joint ", "<joint " + joint + " ");
+    if (!actuator.starts_with("position")) text = all(text, "kp=\"20\"", "");
+    return guess_robot(compile_model(files_.write("m.xml", text)), "m.xml").toml;
+  };
+  const std::string of_joint = R"(actuatorfrcrange="-2 2")";
+  EXPECT_THAT(most_of(R"(position forcerange="-10 10")", of_joint),
+              AllOf(HasSubstr("max_torque_nm = 2\n"), HasSubstr("the joint's actuatorfrcrange")));
+  EXPECT_THAT(most_of(R"(position forcerange="-1 1")", of_joint), HasSubstr("max_torque_nm = 1\n"));
+  EXPECT_THAT(most_of(R"(motor ctrlrange="-10 10")", of_joint), HasSubstr("max_torque_nm = 2\n"));
+  EXPECT_THAT(most_of(R"(motor gear="2" ctrlrange="-1 1" forcerange="-10 10")"),
+              AllOf(HasSubstr("max_torque_nm = 2\n"), HasSubstr("control range × gear")));
+}
+
+TEST_F(Servos, HaveTheDampingOfTheirActuatorThroughItsGear) {
+  const auto toml = [&](const std::string& attributes) {
+    return guess_robot(compile_model(files_.write("m.xml", mjcf_with_actuators(attributes))), "m.xml").toml;
+  };
+  EXPECT_THAT(toml(R"(kv="1")"), AllOf(HasSubstr("kp_nm_per_rad = 20"), HasSubstr("kd_nm_s_per_rad = 1\n")));
+  EXPECT_THAT(toml(R"(kv="1" gear="2")"),
+              AllOf(HasSubstr("kp_nm_per_rad = 80"), HasSubstr("kd_nm_s_per_rad = 4\n")));
+  EXPECT_THAT(toml(R"(dampratio="1")"), Not(HasSubstr("kd_nm_s_per_rad = 0\n")));
+}
+
 TEST_F(Servos, ThatDifferFromACorrectedUrdfAreNoted) {
   const std::string toml = guess(urdf_).toml;
   EXPECT_THAT(notes_on(toml, urdf_), AllOf(Not(HasSubstr("effort")), Not(HasSubstr("velocity"))));

@@ -61,6 +61,20 @@ TEST(CountClaims, TakeAnothersMeanAsThreshold) {
   EXPECT_THAT(one.judged().ours, HasSubstr("threshold 5.00 m"));
 }
 
+TEST(CountClaims, OfAnothersMeanWaitForItsRunsAndNeedFiveOfThem) {
+  OneClaim one(ClaimKind::count, 6, {3.0, 4.0, 5.0, 3.9, 1.0, 2.0});
+  one.claim().threshold_condition = "b";
+  one.claim().at_most = 2;
+  add_runs(one.data, "b", {4.0, 6.0});
+  EXPECT_EQ(one.judged().verdict, Verdict::not_testable) << "four runs more move the threshold";
+  EXPECT_THAT(one.judged().reason, HasSubstr("4 runs of it missing move it"));
+  EXPECT_EQ(one.judged().n_against, 2u);
+  EXPECT_EQ(one.judged().planned_against, 6u);
+  one.data.study.conditions[1].seeds = {1, 2};
+  EXPECT_EQ(one.judged().verdict, Verdict::not_confirmed);
+  EXPECT_THAT(one.judged().reason, HasSubstr("Too few runs: b has 2, 5 are needed."));
+}
+
 TEST(CountClaims, AreComparedWithAPublishedCount) {
   OneClaim one(ClaimKind::count, 20, std::vector<double>(20, 1.0));
   one.claim().threshold = 4.0;

@@ -112,6 +112,22 @@ TEST(Typical, KeepsTestsOfAnotherLengthOrEngineApart) {
   EXPECT_EQ(tables[2].columns[0].measure, "ode.distance_m");
 }
 
+TEST(Typical, KeepsTestsWithACommandOrAGroundOfTheirOwnApartUnderNamesOfTheirOwn) {
+  StudyData data = levelled_study();
+  add_levelled(data, "100-micro", 0.4);
+  add_levelled(data, "control", 1.0);
+  data.study.tests[data.study.tests.size() - 2].command = "0.3,0";
+  data.study.tests.back().ground = "rough.toml";
+  const auto tables = typical_tables(data);
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_THAT(names(tables[0]), ElementsAre("none", "micro", "milli"));
+  EXPECT_THAT(names(tables[1]), ElementsAre("100-micro"));
+  EXPECT_THAT(names(tables[2]), ElementsAre("control"));
+  EXPECT_EQ(tables[0].name(), "typical-15s");
+  EXPECT_EQ(tables[1].name(), "typical-15s-100-micro");
+  EXPECT_EQ(tables[2].name(), "typical-15s-control");
+}
+
 TEST(Typical, IsOfConditionsThatHaveALevelAndOfRunsThatHaveTheTest) {
   StudyData data = levelled_study();
   for (ledger::TestSpec& test : data.study.tests)

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace amble::score {
 namespace {
 
@@ -65,6 +67,21 @@ TEST(DescriptorBehaviour, IsTheMeanOfEachQuantityOverEpisodes) {
   far.contact_steps = {100, 100};
   far.com_end_m.x += 1.0;
   EXPECT_THAT(behaviour.of(std::vector{near, far}), ElementsAre(1.25f, 0.75f, 0.625f));
+}
+
+TEST(DescriptorBehaviour, OfAnAngleIsTheMeanTheShortWayRound) {
+  const DescriptorBehaviour behaviour({.descriptors = {{"turn", ""}}});
+  const auto turned = [](double degrees) {
+    record::Trajectory trajectory = short_walk();
+    trajectory.forward_x = 1.0;
+    trajectory.forward_y = 0.0;
+    trajectory.forward_end_x = std::cos(degrees * M_PI / 180.0);
+    trajectory.forward_end_y = std::sin(degrees * M_PI / 180.0);
+    return trajectory;
+  };
+  EXPECT_NEAR(std::abs(behaviour.of(std::vector{turned(170.0), turned(-160.0)})[0] - 185.0f + 360.0f), 0.0,
+              1e-3);
+  EXPECT_NEAR(behaviour.of(std::vector{turned(-20.0), turned(50.0)})[0], 15.0, 1e-3);
 }
 
 TEST(Behaviour, IsMadeByItsNameAndHasNoNumbersWithoutOne) {

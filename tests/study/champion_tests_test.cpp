@@ -86,7 +86,7 @@ TEST(ChampionToJson, IsReadByLedgersAsTheChampionSays) {
 TEST(GaitObserver, MeasuresWhatIsMeasuredOfTheRecording) {
   const test::TemporaryFolder folder;
   const auto& problem = champion().problem;
-  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem, {});
   const auto replay =
       experiment::replay(problem, champion().genome,
                          {.seconds = 6.0, .record = folder.path() / "a.rec", .observer = &gait}, never);

@@ -1,4 +1,5 @@
 #include "amble/experiment/plan/config.hpp"
+#include "amble/damage/stages.hpp"
 
 #include <fmt/format.h>
 
@@ -167,7 +168,9 @@ std::unique_ptr<const score::Behaviour> Config::make_behaviour(const robot::Robo
   for (const auto& descriptor : search.map_elites.descriptors)
     settings.descriptors.push_back({descriptor.quantity, descriptor.leg});
   if (robot_spec) {
-    settings.weight_n = robot_spec->total_mass_kg() * norm(robot_spec->gravity_m_s2);
+    const double mass_kg = damage.changes_body() ? damage::robot_at_start(*robot_spec, damage).total_mass_kg()
+                                                 : robot_spec->total_mass_kg();
+    settings.weight_n = mass_kg * norm(robot_spec->gravity_m_s2);
     for (const auto& leg : robot_spec->legs) settings.leg_names.push_back(leg.name);
   }
   return score::make_behaviour(search::strategy_kind(search).behaviour, settings);

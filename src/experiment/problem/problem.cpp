@@ -96,10 +96,13 @@ score::Score Problem::make_score() const {
   return score::Score(score, trial.steps() * trial.timestep_s, weight_n());
 }
 
+double Problem::mass_kg() const {
+  return damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg()
+                               : robot.total_mass_kg();
+}
+
 double Problem::weight_n() const {
-  const double mass_kg =
-      damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg() : robot.total_mass_kg();
-  return mass_kg * norm(robot.gravity_m_s2);
+  return mass_kg() * norm(robot.gravity_m_s2);
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {

@@ -86,6 +86,8 @@ struct Problem {
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   /// What scores its trials.
   score::Score make_score() const;
+  /// Of what is left of the robot after damage at the start, with its loads.
+  double mass_kg() const;
   /// Weight of what is left of the robot after damage at the start, N.
   double weight_n() const;
   /// What a trial of this score counts in evolution: times trial.fall_factor after a fall.
