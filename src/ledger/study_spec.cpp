@@ -8,6 +8,7 @@
 #include <set>
 
 #include "amble/core/hash.hpp"
+#include "amble/io/text.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/record/levels.hpp"
 
