@@ -41,7 +41,7 @@ typedef struct {
   command command;
   uint16_t arm_ticks;   /* for which the button has been pressed; UINT16_MAX: too long, or since power came */
   uint8_t pulsed;       /* 1: the last pulses got to the servos */
-  uint16_t quiet_ticks;  /* for so long no line is answered */
+  uint16_t quiet_ticks; /* for so long no line is answered */
   uint8_t stop_letters; /* of `stop`, that came last */
   uint8_t line_stops;   /* `stop` is in it */
   uint8_t line_is_long; /* so that the rest of it was dropped */

@@ -140,8 +140,7 @@ ExitCode run_repertoire(const RepertoireOptions& options) {
   if (retests && (options.cell || (takes_away && options.out->extension() == ".json")))
     fail(ExitCode::bad_input,
          "--retest {}: not with {}, which holds what the map says; expected it alone, or with -o FILE.html, "
-         ".svg "
-         "or .csv",
+         ".svg or .csv",
          *options.retest, options.cell ? "--cell" : "-o FILE.json");
   if (options.gaits) return write_switching(repertoire, options);
   if (options.cell) return write_elite(repertoire, *options.cell, options.out);

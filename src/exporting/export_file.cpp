@@ -40,8 +40,7 @@ void check_helper_names(const std::string& prefix, const CSource& c, const fs::p
     if (name.starts_with(prefix + "_") && c.header.find(name) != std::string::npos)
       fail(ExitCode::bad_input,
            "{}: the file's name is the prefix of all names in it, and {} is that of a helper; expected "
-           "another "
-           "name",
+           "another name",
            out.string(), name);
   }
 }

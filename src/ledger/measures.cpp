@@ -53,16 +53,17 @@ constexpr std::array run_measures{
 /// A measure of runs that fill a map.
 struct MapMeasure {
   std::string_view name, label;
+  bool is_share = false;
   bool is_corrected = false;  ///< only of studies with `map_trials`
 };
 constexpr std::array map_measures{
-    MapMeasure{"coverage", "share of the cells filled"},
+    MapMeasure{"coverage", "share of the cells filled", true},
     MapMeasure{"qd_score", "QD score"},
     MapMeasure{"map_best", "best objective of the map"},
-    MapMeasure{"entering_share", "share of the candidates that enter the map"},
-    MapMeasure{"corrected_coverage", "share of the cells filled, corrected", true},
-    MapMeasure{"corrected_qd_score", "QD score, corrected", true},
-    MapMeasure{"staying_share", "share of the elites that stay in their cell", true}};
+    MapMeasure{"entering_share", "share of the candidates that enter the map", true},
+    MapMeasure{"corrected_coverage", "share of the cells filled, corrected", true, true},
+    MapMeasure{"corrected_qd_score", "QD score, corrected", false, true},
+    MapMeasure{"staying_share", "share of the elites that stay in their cell", true, true}};
 
 /// What a test must look for to have a measure.
 enum class Requires { trials, episodes, reaching, mutants, commands, energy, seam };
@@ -72,6 +73,7 @@ struct TestMeasure {
   std::optional<double> (*value)(const Record&, const TestResult&);
   Requires needs = Requires::trials;
   bool is_compared = false;  ///< in all pairs of conditions
+  bool is_share = false;
 };
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -127,7 +129,7 @@ constexpr std::array test_measures{
                 Requires::episodes},
     TestMeasure{"fell_share", "share of the episodes that fell",
                 [](const Record&, const TestResult& t) -> Found { return t.typical().fell_share; },
-                Requires::episodes},
+                Requires::episodes, false, true},
     TestMeasure{"upright_s", "time upright, s",
                 [](const Record&, const TestResult& t) -> Found { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
@@ -137,7 +139,7 @@ constexpr std::array test_measures{
     TestMeasure{"kept", "distance / distance in evolution", kept},
     TestMeasure{"tracking", "commands followed, 0 … 1",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::tracking); },
-                Requires::commands, true},
+                Requires::commands, true, true},
     TestMeasure{"speed_error", "error of speed, m/s",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::speed_error_m_s); },
                 Requires::commands},
@@ -163,7 +165,8 @@ constexpr std::array test_measures{
                   return t.reached ? static_cast<double>(t.reached->evaluations) : never;
                 },
                 Requires::reaching},
-    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Requires::mutants, true},
+    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Requires::mutants, true,
+                true},
     TestMeasure{"mutants_kept", "share of the score that mutants keep", mutants_kept, Requires::mutants},
     TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Requires::mutants,
                 true}};
@@ -216,9 +219,10 @@ bool is_of_map(std::string_view measure) {
 }
 
 bool is_share(std::string_view measure) {
-  constexpr std::array shares{"fell_share",     "viable_share",       "tracking",     "coverage",
-                              "entering_share", "corrected_coverage", "staying_share"};
-  return std::ranges::find(shares, split(measure).measure) != shares.end();
+  const auto of_map = std::ranges::find(map_measures, measure, &MapMeasure::name);
+  if (of_map != map_measures.end()) return of_map->is_share;
+  const auto of_test = std::ranges::find(test_measures, split(measure).measure, &TestMeasure::name);
+  return of_test != test_measures.end() && of_test->is_share;
 }
 
 bool is_of_seam(std::string_view measure) {

@@ -94,6 +94,8 @@ TEST(ExportCommand, RefusesInOneLine) {
       {{"--format", "c", "-o", scratch / "2 legs.c"},
        "expected a letter, then letters, digits and underscores"},
       {{"--format", "c", "-o", scratch / "mine.c"}, "mine.c"},
+      {{"--format", "c", "-o", scratch / "read.c"},
+       "read_sensors is that of a helper; expected another name"},
       {{"--format", "c", "--fixed", "-o", scratch / "a.c"}, "of kind ctrnn: expected supg"},
       {{"--format", "json", "--fixed"}, "--fixed: only with --format c"},
       {{"--format", "python"}, "--format"},

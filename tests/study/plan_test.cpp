@@ -242,7 +242,7 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
               testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': "));
 }
 
-TEST(Plan, RefusesAClaimOnJumpsFromCycleToCycleOfControllersWithoutCycles) {
+TEST(Plan, RefusesAClaimOnWhatRunsOfAConditionNeverHave) {
   auto study = small_study();
   study.conditions = {condition("jumps", "authors/supg-objective"),
                       condition("turns", "authors/ctrnn-objective")};
@@ -264,6 +264,15 @@ TEST(Plan, RefusesAClaimOnJumpsFromCycleToCycleOfControllersWithoutCycles) {
   }
   study.claims[0].measure = "walk.distance_m";
   EXPECT_NO_THROW(make_plan(study, "out"));
+  study.claims[0].measure = "coverage";
+  try {
+    make_plan(study, "out");
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("the search of condition 'jumps' is of kind objective, which "
+                                   "fills no map"));
+  }
 }
 
 TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {
