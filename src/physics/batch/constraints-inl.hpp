@@ -32,67 +32,102 @@ HWY_INLINE Block block_at(const Pass& pass, int index, int n) {
   return {pass.scratch(pass.work().blocks + index * size), n + 6};
 }
 
-/// The rows of a block while it is built.
+/// The rows of a block while it is built, column by column: a column, one entry of the W of each row, is
+/// written as soon as it is known, so that few vectors are waiting for a register.
 template <int N, int rows>
 struct ConstraintRows {
-  V w[rows][capacity<N> + 6];
+  explicit ConstraintRows(const Block& of) : block(of) {}
+
+  Block block;
+  /// The chain's columns before they are scaled (and, on uneven ground, turned): those of the base need them.
+  V w_chain[capacity<N> > 0 ? capacity<N> : 1][rows];
+  V sum[rows];  ///< Wᵀ W + softness, of the columns so far
   V target[rows];
   V softness[rows];  ///< velocity per impulse
+  V inverse_scale[rows];
   Mask enabled[rows];
 
-  /// Completes W_b of a row from L_b⁻¹ J_bᵀ, which it holds, and W_c: W_b −= (L_b⁻¹ B_c) W_c.
-  HWY_INLINE void finish_base(const ChainFactor& chain, int row, int first = 0) {
-    for (int j = first; j < chain.n; ++j)
-      for (int d = 0; d < 6; ++d)
-        w[row][chain.n + d] = fnma(load(chain.base(j) + d * width), w[row][j], w[row][chain.n + d]);
+  /// To be called before the first column.
+  HWY_INLINE void begin() {
+    for (int r = 0; r < rows; ++r) sum[r] = softness[r];
   }
 
-  /// Scales the rows by 1/s, s = √((Wᵀ W + softness) / ω), and writes all fields but bounds and impulses.
-  /// Lanes without the row get W = 0 and target 0: there it has no effect.
-  HWY_INLINE void scale(const Block& block, float relaxation) {
-    const V inverse_relaxation = set(1.0f / relaxation);
-    V inverse_scale[rows];
+  /// Writes a column of W. Columns are put in their order.
+  HWY_INLINE void put(int column, const V* w) {
     for (int r = 0; r < rows; ++r) {
-      V sum = softness[r];
-      for (int i = 0; i < block.entries; ++i) sum = fma(w[r][i], w[r][i], sum);
-      const V scale = hn::Sqrt(sum * inverse_relaxation);
+      store(w[r], block.w(r) + column * width);
+      sum[r] = fma(w[r], w[r], sum[r]);
+    }
+  }
+
+  /// Finds each row's scale, s = √((Wᵀ W + softness) / ω), and writes all fields but bounds, impulses and
+  /// Gram matrix. Lanes without the row get W = 0 and target 0: there it has no effect.
+  HWY_INLINE void find_scales(float relaxation) {
+    const V inverse_relaxation = set(1.0f / relaxation);
+    for (int r = 0; r < rows; ++r) {
+      const V scale = hn::Sqrt(sum[r] * inverse_relaxation);
       inverse_scale[r] = hn::IfThenElseZero(enabled[r], set(1.0f) / scale);
       block.set(BlockLayout::softness, r, softness[r] * inverse_scale[r] * inverse_scale[r]);
       block.set(BlockLayout::target, r, target[r] * inverse_scale[r]);
       block.set(BlockLayout::scale, r, scale);
       block.set(BlockLayout::inverse_scale, r, inverse_scale[r]);
-      for (int i = 0; i < block.entries; ++i) w[r][i] = w[r][i] * inverse_scale[r];
-      // The Gram matrix of the rows, W_r · W_s: what a unit impulse of one does to the velocity of another.
-      for (int s = 0; s < r; ++s) {
-        V gram = zero();
-        for (int i = 0; i < block.entries; ++i) gram = fma(w[r][i], w[s][i], gram);
-        block.set(BlockLayout::gram, r + s - 1, gram);
-      }
     }
   }
 
-  /// Writes W, and applies the impulses with which the block starts: u += W p (warm starting; Catto 2009).
-  HWY_INLINE void warm_start(const Block& block, V* u_joints, V* u_base) const {
+  /// Scales W; writes its Gram matrix, W_r · W_s: what a unit impulse of one row does to the velocity of
+  /// another; and applies the impulses with which the block starts: u += W p (warm starting; Catto 2009).
+  HWY_INLINE void scale_and_start(V* u_joints, V* u_base) const {
     const int n = block.entries - 6;
-    for (int r = 0; r < rows; ++r) {
-      const V impulse = block.get(BlockLayout::impulse, r);
-      for (int i = 0; i < block.entries; ++i) {
-        V& entry = i < n ? u_joints[i] : u_base[i - n];
-        entry = fma(w[r][i], impulse, entry);
-        store(w[r][i], block.w(r) + i * width);
+    V impulse[rows], gram[3] = {zero(), zero(), zero()};
+    for (int r = 0; r < rows; ++r) impulse[r] = block.get(BlockLayout::impulse, r);
+    for (int i = 0; i < block.entries; ++i) {
+      V w[rows];
+      V& u = i < n ? u_joints[i] : u_base[i - n];
+      for (int r = 0; r < rows; ++r) {
+        w[r] = load(block.w(r) + i * width) * inverse_scale[r];
+        store(w[r], block.w(r) + i * width);
+        for (int s = 0; s < r; ++s) gram[r + s - 1] = fma(w[r], w[s], gram[r + s - 1]);
+        u = fma(w[r], impulse[r], u);
       }
     }
+    for (int pair = 0; pair < rows * (rows - 1) / 2; ++pair) block.set(BlockLayout::gram, pair, gram[pair]);
   }
 };
 
+/// The columns of the joint rows from `first` on. J is the unit vector of the joint, so W_c is a column of
+/// L_c⁻¹ and J_b = 0.
+template <int N, int rows>
+HWY_INLINE void put_joint_columns(const Pass& pass, const Chain& chain, const ChainFactor& factor, int first,
+                                  ConstraintRows<N, rows>& row_set) {
+  int joint[rows];
+  for (int r = 0; r < rows; ++r) joint[r] = N >= 0 ? first + r : pass.row_of(chain, first + r).link;
+  for (int i = 0; i < factor.n; ++i) {
+    V* const w = row_set.w_chain[i];
+    for (int r = 0; r < rows; ++r) {
+      w[r] = i == joint[r] ? load(factor.inverse(i)) : zero();
+      if (i <= joint[r]) continue;
+      for (int k = joint[r]; k < i; ++k) w[r] = fnma(load(factor.lower(i, k)), row_set.w_chain[k][r], w[r]);
+      w[r] = w[r] * load(factor.inverse(i));
+    }
+    row_set.put(i, w);
+  }
+  for (int d = 0; d < 6; ++d) {
+    V w[rows];
+    for (int r = 0; r < rows; ++r) {
+      w[r] = zero();
+      for (int j = joint[r]; j < factor.n; ++j)
+        w[r] = fnma(load(factor.base(j) + d * width), row_set.w_chain[j][r], w[r]);
+    }
+    row_set.put(factor.n + d, w);
+  }
+}
+
 /// Builds a block of up to three joint rows of a chain, from row `first` on; false if no lane has such a row.
-/// J is the unit vector of the joint, so W_c is a column of L_c⁻¹ and J_b = 0.
 template <int N, int rows>
 HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFactor& factor, int first,
                             const Block& block, V* u_joints, V* u_base) {
-  const int n = length<N>(chain);
   Mask enabled = no_lanes();
-  ConstraintRows<N, rows> row_set;
+  ConstraintRows<N, rows> row_set(block);
   for (int r = 0; r < rows; ++r) {
     const float* const joint_row = pass.joint_row(chain, first + r);
     row_set.enabled[r] = load(joint_row + width) < load(joint_row + 2 * width);
@@ -101,18 +136,9 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
     enabled = hn::Or(enabled, row_set.enabled[r]);
   }
   if (hn::AllFalse(Floats(), hn::And(enabled, pass.active()))) return false;
-  for (int r = 0; r < rows; ++r) {
-    const int j = N >= 0 ? first + r : pass.row_of(chain, first + r).link;
-    V* const w = row_set.w[r];
-    for (int i = 0; i < n + 6; ++i) w[i] = zero();
-    w[j] = load(factor.inverse(j));
-    for (int i = j + 1; i < n; ++i) {
-      for (int k = j; k < i; ++k) w[i] = fnma(load(factor.lower(i, k)), w[k], w[i]);
-      w[i] = w[i] * load(factor.inverse(i));
-    }
-    row_set.finish_base(factor, r, j);
-  }
-  row_set.scale(block, pass.model().joint_relaxation);
+  row_set.begin();
+  put_joint_columns(pass, chain, factor, first, row_set);
+  row_set.find_scales(pass.model().joint_relaxation);
   for (int r = 0; r < rows; ++r) {
     const float* const joint_row = pass.joint_row(chain, first + r);
     // Bounds times s; an infinite one stays infinite, and 0 × s is 0.
@@ -123,7 +149,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
     const V before = pass.state(pass.rows().joint_impulse + chain.first_row + first + r) * scale;
     block.set(BlockLayout::impulse, r, max(min(before, high), low));
   }
-  row_set.warm_start(block, u_joints, u_base);
+  row_set.scale_and_start(u_joints, u_base);
   return true;
 }
 

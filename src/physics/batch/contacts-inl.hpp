@@ -137,12 +137,28 @@ HWY_INLINE void assign_contact(const Pass& pass, int p, const Chain* chain, int 
   used = used + hn::IfThenElseZero(touches, set(1.0f));
 }
 
+/// Rows along the world's z, y and x, turned into rows along a contact's normal and its directions of
+/// friction.
+HWY_INLINE V3 turned(const ContactFrame& frame, V3 w) {
+  const V3 forces{w.z, w.y, w.x};
+  return {dot(frame.normal, forces), dot(frame.first, forces), dot(frame.second, forces)};
+}
+
+/// Writes a column of a contact's rows; `frame` is null on the plane.
+template <int N>
+HWY_INLINE void put_contact_column(ConstraintRows<N, 3>& rows, int column, V3 w, const ContactFrame* frame) {
+  if (frame != nullptr) w = turned(*frame, w);
+  const V all[3] = {w.x, w.y, w.z};
+  rows.put(column, all);
+}
+
 /// W_c = L_c⁻¹ J_cᵀ of unit forces along the world's z, y and x at `position` (torso axes) on link number
 /// `link` of its chain. Entry j of J_c is the velocity of that point r per unit speed of joint j,
 /// a_j × r + c_j × a_j, or 0 where the joint does not carry the link.
 template <int N>
-HWY_INLINE void contact_rows_of_chain(const Pass& pass, V link, const Chain* chain, const ChainFactor& factor,
-                                      const Columns& world, V3 position, ConstraintRows<N, 3>& rows) {
+HWY_INLINE void put_chain_columns(const Pass& pass, V link, const Chain* chain, const ChainFactor& factor,
+                                  const Columns& world, V3 position, const ContactFrame* frame,
+                                  ConstraintRows<N, 3>& rows) {
   for (int j = 0; j < factor.n; ++j) {
     const Spatial subspace = motion_subspace(pass, *chain, j);
     Mask carries = link >= set(static_cast<float>(j));
@@ -152,42 +168,36 @@ HWY_INLINE void contact_rows_of_chain(const Pass& pass, V link, const Chain* cha
     V3 w{hn::IfThenElseZero(carries, dot(world.z, velocity)),
          hn::IfThenElseZero(carries, dot(world.y, velocity)),
          hn::IfThenElseZero(carries, dot(world.x, velocity))};
-    for (int k = 0; k < j; ++k) {
-      const V lower = load(factor.lower(j, k));
-      w = fnma(lower, V3{rows.w[0][k], rows.w[1][k], rows.w[2][k]}, w);
-    }
+    for (int k = 0; k < j; ++k)
+      w = fnma(load(factor.lower(j, k)), V3{rows.w_chain[k][0], rows.w_chain[k][1], rows.w_chain[k][2]}, w);
     w = load(factor.inverse(j)) * w;
-    rows.w[0][j] = w.x;
-    rows.w[1][j] = w.y;
-    rows.w[2][j] = w.z;
+    rows.w_chain[j][0] = w.x;
+    rows.w_chain[j][1] = w.y;
+    rows.w_chain[j][2] = w.z;
+    put_contact_column(rows, j, w, frame);
   }
 }
 
-/// L_b⁻¹ J_bᵀ of the same at r = `arm` (world axes). A force e at r is the wrench (r × e, e): for z, y and x
-/// the unit force, and of the unit torques r_y x − r_x y, r_x z − r_z x, r_z y − r_y z.
+/// W_b = L_b⁻¹ J_bᵀ − (L_b⁻¹ B_c) W_c of the same at r = `arm` (world axes). A force e at r is the wrench
+/// (r × e, e): for z, y and x the unit force, and of the unit torques r_y x − r_x y, r_x z − r_z x, r_z y −
+/// r_y z.
 template <int N>
-HWY_INLINE void contact_rows_of_base(const UnitWrenches& wrenches, V3 arm, int n,
-                                     ConstraintRows<N, 3>& rows) {
+HWY_INLINE void put_base_columns(const UnitWrenches& wrenches, V3 arm, const ChainFactor& factor,
+                                 const ContactFrame* frame, ConstraintRows<N, 3>& rows) {
   const V(&torque)[3][6] = wrenches.torque;
   for (int i = 0; i < 6; ++i) {
     const V x = torque[0][i], y = torque[1][i], z = torque[2][i];
-    rows.w[0][n + i] = i < 3 ? arm.y * x : fma(arm.y, x, wrenches.force[2][i - 3]);
-    rows.w[0][n + i] = fnma(arm.x, y, rows.w[0][n + i]);
-    rows.w[1][n + i] = i < 3 ? arm.x * z : fma(arm.x, z, wrenches.force[1][i - 3]);
-    rows.w[1][n + i] = fnma(arm.z, x, rows.w[1][n + i]);
-    rows.w[2][n + i] = i < 3 ? arm.z * y : fma(arm.z, y, wrenches.force[0][i - 3]);
-    rows.w[2][n + i] = fnma(arm.y, z, rows.w[2][n + i]);
-  }
-}
-
-/// Turns rows along the world's z, y and x into rows along a contact's normal and its directions of friction.
-template <int N>
-HWY_INLINE void turn_rows(const ContactFrame& frame, int entries, ConstraintRows<N, 3>& rows) {
-  for (int i = 0; i < entries; ++i) {
-    const V3 w{rows.w[2][i], rows.w[1][i], rows.w[0][i]};
-    rows.w[0][i] = dot(frame.normal, w);
-    rows.w[1][i] = dot(frame.first, w);
-    rows.w[2][i] = dot(frame.second, w);
+    V3 w;
+    w.x = i < 3 ? arm.y * x : fma(arm.y, x, wrenches.force[2][i - 3]);
+    w.x = fnma(arm.x, y, w.x);
+    w.y = i < 3 ? arm.x * z : fma(arm.x, z, wrenches.force[1][i - 3]);
+    w.y = fnma(arm.z, x, w.y);
+    w.z = i < 3 ? arm.z * y : fma(arm.z, y, wrenches.force[0][i - 3]);
+    w.z = fnma(arm.y, z, w.z);
+    for (int j = 0; j < factor.n; ++j)
+      w = fnma(load(factor.base(j) + i * width),
+               V3{rows.w_chain[j][0], rows.w_chain[j][1], rows.w_chain[j][2]}, w);
+    put_contact_column(rows, factor.n + i, w, frame);
   }
 }
 
@@ -199,26 +209,28 @@ HWY_INLINE void contact_block(const Pass& pass, const Chain* chain, const ChainF
                               const UnitWrenches& wrenches, int index, V* u_joints, V* u_base) {
   const Block block = block_at(pass, index, factor.n);
   const Columns world = pass.world();
-  const V height = block.get(BlockLayout::target);
+  const V height = block.get(BlockLayout::target), link = block.get(BlockLayout::target, 1);
   const V3 position{block.get(BlockLayout::arm, 0), block.get(BlockLayout::arm, 1),
                     block.get(BlockLayout::arm, 2)};
   const V3 arm = transposed(world, position);
   const Mask touches = height <= zero();
-  ConstraintRows<N, 3> rows;
+  ConstraintRows<N, 3> rows(block);
   rows.target[0] = set(-pass.model().erp / pass.timestep_s()) * height;
   rows.target[1] = rows.target[2] = zero();
   for (Mask& enabled : rows.enabled) enabled = touches;
   for (V& softness : rows.softness) softness = set(pass.model().cfm_s_per_kg / pass.timestep_s());
-  contact_rows_of_chain<N>(pass, block.get(BlockLayout::target, 1), chain, factor, world, position, rows);
-  contact_rows_of_base<N>(wrenches, arm, factor.n, rows);
-  for (int r = 0; r < 3; ++r) rows.finish_base(factor, r);
-  if (pass.ground()) turn_rows<N>(contact_frame(pass, index), factor.n + 6, rows);
-  rows.scale(block, pass.model().contact_relaxation);
+  rows.begin();
+  const bool uneven = pass.ground() != nullptr;
+  const ContactFrame uneven_frame = uneven ? contact_frame(pass, index) : ContactFrame{};
+  const ContactFrame* const frame = uneven ? &uneven_frame : nullptr;
+  put_chain_columns<N>(pass, link, chain, factor, world, position, frame, rows);
+  put_base_columns<N>(wrenches, arm, factor, frame, rows);
+  rows.find_scales(pass.model().contact_relaxation);
   block.set(BlockLayout::arm, 0, arm.x);
   block.set(BlockLayout::arm, 1, arm.y);
   block.set(BlockLayout::arm, 2, arm.z);
   bound_contact(pass, touches, block);
-  rows.warm_start(block, u_joints, u_base);
+  rows.scale_and_start(u_joints, u_base);
 }
 
 /// Blocks of all contacts of the torso (segment 0, N = 0) or of a chain, after those of its joints. In each
@@ -299,7 +311,7 @@ HWY_INLINE void build_chain_blocks(const Pass& pass, std::size_t c, const BaseFa
 
 /// All blocks, warm-started: torso first, then chain by chain.
 template <int N>
-HWY_NOINLINE void build_blocks(const Pass& pass, const BaseFactor& base, V* u_base) {
+HWY_NOINLINE void build_blocks(const Pass pass, const BaseFactor& base, V* u_base) {
   const UnitWrenches wrenches = unit_wrenches(pass, base);
   ChainBlocks& torso = pass.work().chain_blocks[0];
   torso = {0, 0, 0};

@@ -146,7 +146,7 @@ HWY_INLINE void unconstrained_chain(const Pass& pass, const LaneArray& targets_r
 /// accelerates the whole robot alike and is in no bias force) and the push's impulse p_b,
 ///   u_b = L_bᵀ (ν_b + h g) + L_b⁻¹ (p_b − Σ B_c y_c).
 template <int N>
-HWY_NOINLINE void unconstrained_velocity(const Pass& pass, const LaneArray& targets_rad, const Base& base,
+HWY_NOINLINE void unconstrained_velocity(const Pass pass, const LaneArray& targets_rad, const Base& base,
                                          BaseFactor& factor, V* u_base) {
   const Model& model = pass.model();
   // M_bb = diag(I, m 1), its lower triangle row by row.

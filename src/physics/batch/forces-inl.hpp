@@ -69,7 +69,7 @@ HWY_INLINE void chain_bias_forces(const Pass& pass, const Chain& chain, const Ba
 /// Bias forces of all joints, kept in place of u_joints until unconstrained_chain(), and the bias
 /// acceleration of the base.
 template <int N>
-HWY_NOINLINE void bias_forces(const Pass& pass, Base& base) {
+HWY_NOINLINE void bias_forces(const Pass pass, Base& base) {
   const Model& model = pass.model();
   Spatial total = inertial_force(base.torso_inertia, base.torso_first_moment, set(model.torso.mass_kg),
                                  base.velocity, zero_spatial());

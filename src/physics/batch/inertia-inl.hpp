@@ -189,7 +189,7 @@ HWY_INLINE Symmetric inverse(const Symmetric& m) {
 ///   ω = I⁻¹ (L − Σ n_j q̇_j),   v = v_com − (Σ f_j q̇_j) / m,   (n_j, f_j) = F_j
 /// (Featherstone 2008, sec. 2.12; docs/BATCH.md, "State and coordinates").
 template <int N>
-HWY_NOINLINE Base mass_matrix(const Pass& pass) {
+HWY_NOINLINE Base mass_matrix(const Pass pass) {
   const Model& model = pass.model();
   Base base;
   const V one = set(1.0f), none = zero();

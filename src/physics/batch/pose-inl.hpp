@@ -17,42 +17,64 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// One pass of a step: as many lanes as a vector holds, from `lane` on.
+/// One pass of a step: as many lanes as a vector holds, from `lane` on. Functions that are not inlined take
+/// it by value: what is reached through a pointer the compiler reads again after each store of a vector,
+/// which may change anything as far as it knows.
 struct Pass {
+  Pass(const StepArguments& step, int first_lane)
+      : arguments(step),
+        lane(first_lane),
+        model_(step.model),
+        work_(step.workspace),
+        rows_(step.rows),
+        state_(step.state),
+        links_(step.model.links.data()),
+        ground_(step.ground),
+        geom_has_impulse_(step.workspace.geom_has_impulse.data() +
+                          to_index(first_lane / width) * step.model.geoms.size()),
+        scratch_(step.workspace.memory()),
+        timestep_s_(step.timestep_s) {}
+
   const StepArguments& arguments;
   int lane;
 
-  const Model& model() const { return arguments.model; }
-  const StateRows& rows() const { return arguments.rows; }
-  Workspace& work() const { return arguments.workspace; }
-  float timestep_s() const { return arguments.timestep_s; }
-  Row* row(int index) const { return arguments.state + index; }
-  V state(int index) const { return load1(arguments.state[index], lane); }
-  V3 state3(int index) const { return load3(arguments.state + index, lane); }
-  void set_state(int index, V v) const { store1(v, arguments.state[index], lane); }
-  void set_state3(int index, V3 v) const { store3(v, arguments.state + index, lane); }
-  float* scratch(int vector) const { return arguments.workspace.memory() + vector * width; }
-  const Link& link(const Chain& chain, int j) const {
-    return arguments.model.links[to_index(chain.first + j)];
-  }
+  const Model& model() const { return model_; }
+  const StateRows& rows() const { return rows_; }
+  Workspace& work() const { return work_; }
+  float timestep_s() const { return timestep_s_; }
+  Row* row(int index) const { return state_ + index; }
+  V state(int index) const { return load1(state_[index], lane); }
+  V3 state3(int index) const { return load3(state_ + index, lane); }
+  void set_state(int index, V v) const { store1(v, state_[index], lane); }
+  void set_state3(int index, V3 v) const { store3(v, state_ + index, lane); }
+  float* scratch(int vector) const { return scratch_ + vector * width; }
+  const Link& link(const Chain& chain, int j) const { return links_[chain.first + j]; }
   const JointRow& row_of(const Chain& chain, int r) const {
-    return arguments.model.joint_rows[to_index(chain.first_row + r)];
+    return model_.joint_rows[to_index(chain.first_row + r)];
   }
   float* joint_row(const Chain& chain, int r) const {
-    return scratch(arguments.workspace.joint_row + joint_row_size * (chain.first_row + r));
+    return scratch(work_.joint_row + joint_row_size * (chain.first_row + r));
   }
   int pose_row(int link) const { return rows().pose + StateRows::pose_size * link; }
-  unsigned char& geom_has_impulse(int geom) const {
-    const std::size_t first = to_index(lane / width) * arguments.model.geoms.size();
-    return arguments.workspace.geom_has_impulse[first + to_index(geom)];
-  }
-  const UnevenGround* ground() const { return arguments.ground; }
+  unsigned char& geom_has_impulse(int geom) const { return geom_has_impulse_[geom]; }
+  const UnevenGround* ground() const { return ground_; }
   Mask active() const { return state(StateRows::active) > zero(); }
   /// The world's axes in torso axes, as columns: the rotation matrix from world to torso axes.
   Columns world() const {
     return {state3(StateRows::world_axes), state3(StateRows::world_axes + 3),
             state3(StateRows::world_axes + 6)};
   }
+
+ private:
+  const Model& model_;
+  Workspace& work_;
+  StateRows rows_;
+  Row* state_;
+  const Link* links_;
+  const UnevenGround* ground_;
+  unsigned char* geom_has_impulse_;
+  float* scratch_;
+  float timestep_s_;
 };
 
 /// Rotates two of a frame's axes about the third: u ← u cos + w sin, w ← w cos − u sin.
@@ -136,7 +158,7 @@ HWY_INLINE void find_world_axes(const Pass& pass) {
 }
 
 /// Poses of all links, and the joints' motion subspaces (a, c × a), about the robot's centre of mass.
-HWY_NOINLINE void forward_kinematics(const Pass& pass) {
+HWY_NOINLINE void forward_kinematics(const Pass pass) {
   const Model& model = pass.model();
   find_world_axes(pass);
   V3 moment = set(model.torso.mass_kg) * set(model.torso.com_m);
@@ -221,16 +243,19 @@ HWY_INLINE V gap_on_uneven_ground(const Pass& pass, int p, V3 position) {
 
 /// Heights above the ground of all points whose geom's bounding sphere reaches it, and which feet touch.
 template <bool uneven>
-HWY_NOINLINE void detect_contacts_on(const Pass& pass) {
+HWY_NOINLINE void detect_contacts_on(const Pass pass) {
   const Model& model = pass.model();
   const Mask active = pass.active();
   const V3 up = pass.state3(StateRows::world_axes + 6);
   const V com_height = pass.state(StateRows::com + 2);
   const V highest = set(uneven ? pass.ground()->highest_m : 0.0f);
+  const Point* const points = model.points.data();
+  const std::size_t geoms = model.geoms.size();
+  unsigned char* const may_touch = pass.work().geom_may_touch.data();
   V contacts = zero();
-  for (std::size_t g = 0; g < model.geoms.size(); ++g) {
+  for (std::size_t g = 0; g < geoms; ++g) {
     const PointGroup& geom = model.geoms[g];
-    const Point& first = model.points[to_index(geom.first)];
+    const Point& first = points[geom.first];
     V3 origin = pass.state3(StateRows::torso_origin), local_up = up;
     if (first.chain >= 0) {
       const int row = pass.pose_row(model.chains[to_index(first.chain)].first + first.link);
@@ -240,10 +265,10 @@ HWY_NOINLINE void detect_contacts_on(const Pass& pass) {
     // z = z_com + up · origin + (Rᵀ up) · p − radius, p in the axes of the link's frame.
     const V height = dot(up, origin, com_height);
     const V lowest = dot(local_up, set(geom.centre_m), height) - set(geom.bounding_radius_m);
-    pass.work().geom_may_touch[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= highest));
+    may_touch[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= highest));
     Mask touches = no_lanes();
-    for (int p = geom.first; pass.work().geom_may_touch[g] && p < geom.first + geom.count; ++p) {
-      const Point& point = model.points[to_index(p)];
+    for (int p = geom.first; may_touch[g] && p < geom.first + geom.count; ++p) {
+      const Point& point = points[p];
       const V3 position = point_position(point, local_up);
       const V h = uneven ? gap_on_uneven_ground(pass, p, position)
                          : dot(local_up, position, height) - set(point.radius_m);
@@ -264,7 +289,7 @@ HWY_INLINE void detect_contacts(const Pass& pass) {
 }
 
 /// Copies joint angles and touch to the sensors, and computes roll, pitch and yaw.
-HWY_NOINLINE void read_sensors(const Pass& pass) {
+HWY_NOINLINE void read_sensors(const Pass pass) {
   const auto put = [&](V v, LaneArray& rows, int row)
                        HWY_ATTR { hn::StoreU(v, Floats(), rows.row(row) + pass.lane); };
   robot::SensorFrame& sensors = pass.arguments.sensors;

@@ -147,21 +147,41 @@ HWY_INLINE void relax_block(const Block& block, V* u_joints, V* u_base) {
   }
 }
 
+/// All blocks of a pass one after the other: those of the torso, then chain by chain. A copy of what
+/// block_at() reads, since the compiler has to expect that the store of a vector changes anything in memory.
+struct BlockWalk {
+  float* next;
+  int stride;              ///< floats from one block to the next
+  const int* first_joint;  ///< by block of joints: its first row, counted in its chain
+
+  HWY_INLINE Block take(int n) {
+    float* const data = next;
+    next += stride;
+    ++first_joint;
+    return {data, n + 6};
+  }
+};
+
+HWY_INLINE BlockWalk first_block(const Pass& pass) {
+  const Workspace& work = pass.work();
+  return {pass.scratch(work.blocks), work.block_layout.size() * width, work.block_joint.data()};
+}
+
 /// One sweep over the blocks of the torso (N = 0) or of a chain.
 template <int N, Bound contact>
-HWY_INLINE void relax_chain(const Pass& pass, const ChainBlocks& blocks, int n, V* u_joints, V* u_base) {
+HWY_INLINE void relax_chain(const ChainBlocks& blocks, int n, BlockWalk& walk, V* u_joints, V* u_base) {
+  const int entries = N >= 0 ? N : n;
   if constexpr (N == 3) {
     if (blocks.paired()) {
-      relax_pair<N, contact>(block_at(pass, blocks.first, N), block_at(pass, blocks.first + 1, N), u_joints,
-                             u_base);
-      for (int b = 2; b < blocks.count; ++b)
-        relax<N, 3, contact>(block_at(pass, blocks.first + b, N), u_joints, u_base);
+      const Block motors = walk.take(N), first_contact = walk.take(N);
+      relax_pair<N, contact>(motors, first_contact, u_joints, u_base);
+      for (int b = 2; b < blocks.count; ++b) relax<N, 3, contact>(walk.take(N), u_joints, u_base);
       return;
     }
   }
   for (int b = 0; b < blocks.joint_blocks; ++b) {
-    const Block block = block_at(pass, blocks.first + b, N >= 0 ? N : n);
-    const int left = blocks.joint_rows - pass.work().block_joint[to_index(blocks.first + b)];
+    const int left = blocks.joint_rows - *walk.first_joint;
+    const Block block = walk.take(entries);
     if (N == 3 || left >= 3) {
       relax_block<N, 3, Bound::joint>(block, u_joints, u_base);
     } else if (left == 2) {
@@ -171,25 +191,28 @@ HWY_INLINE void relax_chain(const Pass& pass, const ChainBlocks& blocks, int n, 
     }
   }
   for (int b = blocks.joint_blocks; b < blocks.count; ++b)
-    relax_block<N, 3, contact>(block_at(pass, blocks.first + b, N >= 0 ? N : n), u_joints, u_base);
+    relax_block<N, 3, contact>(walk.take(entries), u_joints, u_base);
 }
 
 /// All sweeps: u (u_joints in the scratch memory and u_base) after the constraints.
 template <int N, Bound contact>
-HWY_NOINLINE void solve(const Pass& pass, V* u_base_out) {
-  const Model& model = pass.model();
+HWY_NOINLINE void solve(const Pass pass, V* u_base_out) {
+  const Chain* const chains = pass.model().chains.data();
+  const ChainBlocks* const blocks = pass.work().chain_blocks.data();
+  const std::size_t chain_count = pass.model().chains.size();
+  float* const all_u_joints = pass.scratch(pass.work().u_joints);
   V u_base[6];
   for (int d = 0; d < 6; ++d) u_base[d] = u_base_out[d];
-  for (int sweep = 0; sweep < model.iterations; ++sweep) {
+  for (int sweeps = pass.model().iterations; sweeps > 0; --sweeps) {
+    BlockWalk walk = first_block(pass);
     V none[1];
-    relax_chain<0, contact>(pass, pass.work().chain_blocks[0], 0, none, u_base);
-    for (std::size_t c = 0; c < model.chains.size(); ++c) {
-      const Chain& chain = model.chains[c];
-      const int n = length<N>(chain);
-      float* const u_chain = pass.scratch(pass.work().u_joints + chain.first);
+    relax_chain<0, contact>(blocks[0], 0, walk, none, u_base);
+    for (std::size_t c = 0; c < chain_count; ++c) {
+      const int n = length<N>(chains[c]);
+      float* const u_chain = all_u_joints + chains[c].first * width;
       V u_joints[capacity<N>];
       for (int j = 0; j < n; ++j) u_joints[j] = load(u_chain + j * width);
-      relax_chain<N, contact>(pass, pass.work().chain_blocks[c + 1], n, u_joints, u_base);
+      relax_chain<N, contact>(blocks[c + 1], n, walk, u_joints, u_base);
       for (int j = 0; j < n; ++j) store(u_joints[j], u_chain + j * width);
     }
   }

@@ -58,7 +58,7 @@ inline void store_point_impulses(const Pass& pass, const ChainBlocks& blocks, st
 
 /// Stores all impulses for the next step, and returns the total external impulse of ground and push about the
 /// robot's centre of mass, Σ (r × p, p), world axes (N m s, N s).
-inline Spatial collect_impulses(const Pass& pass) {
+inline Spatial collect_impulses(const Pass pass) {
   const Model& model = pass.model();
   const Columns world = pass.world();
   V3 linear = pass.state3(StateRows::push_impulse);
@@ -165,7 +165,7 @@ HWY_INLINE void integrate_joints(const NextState& next, std::size_t c, const V* 
 /// Semi-implicit Euler: velocities from the solver's u and the external impulses, then positions with the new
 /// velocities. Momentum: v_com += p / m + h g, L += Σ r × p. `u_base` becomes ν_b = L_b⁻ᵀ u_b.
 template <int N>
-HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_base) {
+HWY_NOINLINE void integrate(const Pass pass, const BaseFactor& factor, V* u_base) {
   const Model& model = pass.model();
   const NextState next{pass, pass.active()};
   const Spatial impulse = collect_impulses(pass);
@@ -194,7 +194,7 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
 
 /// Torques of the motors in the last step, τ = p / h + explicit torque (N m). A joint's row is the motor's
 /// where its bounds are finite, and else its stop's.
-HWY_NOINLINE void measure_torques(const Pass& pass) {
+HWY_NOINLINE void measure_torques(const Pass pass) {
   const V rate = set(1.0f / pass.timestep_s());
   for (const Chain& chain : pass.model().chains)
     for (int j = 0; j < chain.count; ++j) {
@@ -234,7 +234,7 @@ HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
 void step_lanes(const StepArguments& arguments, const LaneArray& targets_rad) {
   const bool three_joints = arguments.model.plain_chains && arguments.model.longest_chain == 3;
   for (int lane = 0; lane < lanes; lane += width) {
-    const Pass pass{arguments, lane};
+    const Pass pass(arguments, lane);
     if (hn::AllFalse(Floats(), pass.active())) continue;
     if (three_joints) {
       step_chains<3>(pass, targets_rad);
@@ -249,7 +249,7 @@ void step_lanes(const StepArguments& arguments, const LaneArray& targets_rad) {
 
 void derive_lanes(const StepArguments& arguments) {
   for (int lane = 0; lane < lanes; lane += width) {
-    const Pass pass{arguments, lane};
+    const Pass pass(arguments, lane);
     forward_kinematics(pass);
     detect_contacts(pass);
     read_sensors(pass);
