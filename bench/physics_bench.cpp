@@ -37,25 +37,43 @@ void set_targets(const robot::RobotSpec& robot, int step, LaneArray& targets_rad
 /// Fills the targets of all lanes at a step.
 using Targets = std::function<void(int step, LaneArray& targets_rad)>;
 
+/// Of which stretches of time a speed is.
+struct Stretches {
+  int walkers = 1;          ///< that take turns: each stretch has all of them
+  bool in_threads = false;  ///< others do the same at the same time: one long stretch, without a choice
+};
+
+/// Seconds per call of `round`.
+double seconds_per_round(const std::function<void()>& round, Stretches stretches) {
+  if (stretches.in_threads) return seconds_per_call(round, 1.5, 1);
+  if (stretches.walkers == 1) return seconds_per_call(round);
+  const auto all = [&] {
+    for (int walker = 0; walker < stretches.walkers; ++walker) round();
+  };
+  return seconds_per_call(all, 0.0, 12) / stretches.walkers;
+}
+
 Targets swing(const robot::RobotSpec& robot) {
   return [&robot](int step, LaneArray& targets_rad) { set_targets(robot, step, targets_rad); };
 }
 
 /// Robot-steps per second of an engine on one core, all lanes busy.
-double steps_per_s(physics::Engine& engine, int joints, const Targets& targets) {
+double steps_per_s(physics::Engine& engine, int joints, const Targets& targets, Stretches stretches = {}) {
   LaneArray targets_rad(joints, engine.lanes());
-  const double seconds = seconds_per_call([&] {
+  const auto round = [&] {
     for (int lane = 0; lane < engine.lanes(); ++lane) engine.place(lane);
     for (int step = 0; step < steps; ++step) {
       targets(step, targets_rad);
       engine.step(targets_rad);
     }
-  });
-  return steps * engine.lanes() / seconds;
+  };
+  return steps * engine.lanes() / seconds_per_round(round, stretches);
 }
 
-double steps_per_s(const char* name, const robot::RobotSpec& robot, const Targets& targets) {
-  return steps_per_s(*physics::make_engine(name, robot, {}), static_cast<int>(robot.joints.size()), targets);
+double steps_per_s(const char* name, const robot::RobotSpec& robot, const Targets& targets,
+                   Stretches stretches = {}) {
+  return steps_per_s(*physics::make_engine(name, robot, {}), static_cast<int>(robot.joints.size()), targets,
+                     stretches);
 }
 
 /// Changes every quarter of a second: as many arrays of targets as stay in the cache.
@@ -79,7 +97,7 @@ double many_steps_per_s(const robot::RobotSpec& robot, int robots) {
       for (const auto& engine : engines) engine->step(targets_rad);
     }
   };
-  return static_cast<double>(steps) * robots / seconds_per_call(round, 0.2, 3);
+  return static_cast<double>(steps) * robots / seconds_per_call(round, 0.0, 5);
 }
 
 double steps_per_s(const char* name, const robot::RobotSpec& robot) {
@@ -89,7 +107,7 @@ double steps_per_s(const char* name, const robot::RobotSpec& robot) {
 /// The same of MuJoCo by itself: mj_step with its own soft contacts and options, but for the limit of 20
 /// iterations, and a damped servo with the same limits of torque. The engine "mujoco" is slower, because it
 /// solves ODE's stiffer equations.
-double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets,
+double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets, Stretches stretches = {},
                       double timestep_s = physics::EngineSettings{}.timestep_s) {
   const auto mjcf = morphology::write_mjcf(robot);
   static std::mutex compiling;  // MuJoCo's compiler is not for several threads at once
@@ -102,7 +120,7 @@ double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets,
   model->opt.iterations = 20;
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model), mj_deleteData);
   LaneArray targets_rad(static_cast<int>(robot.joints.size()), 1);
-  const double seconds = seconds_per_call([&] {
+  const auto round = [&] {
     mj_resetData(model, data.get());
     for (int step = 0; step < steps; ++step) {
       targets(step, targets_rad);
@@ -117,31 +135,35 @@ double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets,
       }
       mj_step(model, data.get());
     }
-  });
-  return steps / seconds;
+  };
+  return steps / seconds_per_round(round, stretches);
 }
 
 /// The sum of what as many threads as there are processors measure at once, each with robots of its own.
-double on_all_processors(const std::function<double()>& rate) {
+double on_all_processors(const std::function<double(Stretches)>& rate) {
   std::vector<std::future<double>> threads;
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
-    threads.push_back(std::async(std::launch::async, rate));
+    threads.push_back(std::async(std::launch::async, rate, Stretches{.in_threads = true}));
   double sum = 0.0;
   for (auto& thread : threads) sum += thread.get();
   return sum;
 }
 
 void measure_threads(const std::string& name, const robot::RobotSpec& robot, std::vector<Figure>& figures) {
-  const double batch = on_all_processors([&] { return steps_per_s("batch", robot, quarter_swing(robot)); }),
-               mujoco = on_all_processors([&] { return mj_steps_per_s(robot, quarter_swing(robot)); });
+  const auto batch_rate = [&](Stretches stretches) {
+    return steps_per_s("batch", robot, quarter_swing(robot), stretches);
+  };
+  const auto mujoco_rate = [&](Stretches stretches) {
+    return mj_steps_per_s(robot, quarter_swing(robot), stretches);
+  };
+  const double batch = on_all_processors(batch_rate), mujoco = on_all_processors(mujoco_rate);
   const std::string what = fmt::format("{} threads, {}", std::thread::hardware_concurrency(), name);
   figures.push_back({"batch_robot_steps_per_s_threads_" + name, batch, "1/s", what});
   figures.push_back({"mujoco_robot_steps_per_s_threads_" + name, mujoco, "1/s",
                      what + ", mj_step alone, a simulation in each thread"});
   figures.push_back({"batch_vs_mujoco_threads_" + name, batch / mujoco, "1", what});
   without_avx512([&] {
-    const double narrow =
-        on_all_processors([&] { return steps_per_s("batch", robot, quarter_swing(robot)); });
+    const double narrow = on_all_processors(batch_rate);
     figures.push_back(
         {"batch_vs_mujoco_threads_" + name + "_avx2", narrow / mujoco, "1", what + ", without AVX-512"});
   });
@@ -168,8 +190,9 @@ constexpr double step_flop = 13900.0, contact_flop = 2100.0;
 
 void measure_walkers(std::vector<Figure>& figures) {
   const Walkers walkers = evolve_walkers(steps);
-  const double ode_us = 1e6 / steps_per_s("ode", walkers.robot, one_by_one(walkers)),
-               mujoco_us = 1e6 / mj_steps_per_s(walkers.robot, one_by_one(walkers));
+  const Stretches by_turns{.walkers = walker_count};
+  const double ode_us = 1e6 / steps_per_s("ode", walkers.robot, one_by_one(walkers), by_turns),
+               mujoco_us = 1e6 / mj_steps_per_s(walkers.robot, one_by_one(walkers), by_turns);
   const double flop = step_flop + contact_flop * walkers.mean_contacts;
   const auto tell = [&](const std::string& suffix, const std::string& note) {
     const double us = walker_us(walkers);
@@ -220,12 +243,16 @@ void measure_config(const std::string& config_file, std::vector<Figure>& figures
   const robot::RobotSpec& robot = problem.robot;
   const int joints = static_cast<int>(robot.joints.size());
   const Targets targets = quarter_swing(robot);
-  const auto engine_rate = [&] { return steps_per_s(*problem.make_engine(), joints, targets); };
-  const auto mujoco_rate = [&] { return mj_steps_per_s(robot, targets, problem.trial.timestep_s); };
+  const auto engine_rate = [&](Stretches stretches) {
+    return steps_per_s(*problem.make_engine(), joints, targets, stretches);
+  };
+  const auto mujoco_rate = [&](Stretches stretches) {
+    return mj_steps_per_s(robot, targets, stretches, problem.trial.timestep_s);
+  };
   const std::string what = fmt::format("{}, {} joints, {} legs, steps of {:g} s", robot.name, joints,
                                        robot.legs.size(), problem.trial.timestep_s);
   const std::string threads = fmt::format("{} threads, ", std::thread::hardware_concurrency()) + what;
-  const double one = engine_rate(), one_mujoco = mujoco_rate(), all = on_all_processors(engine_rate),
+  const double one = engine_rate({}), one_mujoco = mujoco_rate({}), all = on_all_processors(engine_rate),
                all_mujoco = on_all_processors(mujoco_rate);
   figures.push_back({problem.engine + "_robot_steps_per_s", one, "1/s", "one core, " + what});
   figures.push_back({problem.engine + "_robot_steps_per_s_threads", all, "1/s", threads});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,14 @@ std::string to_text(const std::vector<Figure>& figures);
 /// Columns name,value,unit; circumstances come last, as text in quotes without a unit.
 std::string to_csv(const std::vector<Figure>& figures, const std::vector<Circumstance>& circumstances);
 
-/// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the
-/// median of the seconds per call.
+/// The least seconds per call of `work` in `stretches` stretches of at least `least_s` seconds, after one
+/// call to warm up: what it takes where nothing else runs, also on a computer that is shared, as long as some
+/// stretches are left alone.
 template <typename Work>
-double seconds_per_call(Work work, double least_s = 0.3, int repeats = 5) {
+double seconds_per_call(Work work, double least_s = 0.02, int stretches = 75) {
   work();
-  std::vector<double> seconds;
-  for (int i = 0; i < repeats; ++i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < stretches; ++i) {
     int calls = 0;
     const double start_s = now_s();
     double spent_s = 0.0;
@@ -41,10 +43,9 @@ double seconds_per_call(Work work, double least_s = 0.3, int repeats = 5) {
       ++calls;
       spent_s = now_s() - start_s;
     } while (spent_s < least_s);
-    seconds.push_back(spent_s / calls);
+    least = std::min(least, spent_s / calls);
   }
-  std::ranges::sort(seconds);
-  return seconds[seconds.size() / 2];
+  return least;
 }
 
 }  // namespace amble::bench
