@@ -152,8 +152,17 @@ void check_overruled(const std::vector<std::string>& assignments, bool has_gener
   }
 }
 
+/// Robots by file: conditions share them, and a model with large meshes takes a while to read.
+using RobotsByFile = std::map<std::string, robot::RobotSpec>;
+
+const robot::RobotSpec& robot_of(const experiment::Config& config, RobotsByFile& robots) {
+  const auto known = robots.find(config.robot);
+  return known != robots.end() ? known->second
+                               : robots.emplace(config.robot, experiment::load_robot(config)).first->second;
+}
+
 PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
-                                const std::vector<PlannedTest>& tests) {
+                                const std::vector<PlannedTest>& tests, RobotsByFile& robots) {
   const ledger::ConditionSpec& spec = study.conditions[index];
   experiment::Overrides overrides{.assignments = study.settings, .seed = {}, .generations = {}};
   overrides.assignments.insert(overrides.assignments.end(), spec.settings.begin(), spec.settings.end());
@@ -166,7 +175,7 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
     condition.config = experiment::load_config(spec.config, overrides);
     if (!spec.steering.empty()) steering = experiment::parse_steering(spec.steering, "steering");
     check_overruled(overrides.assignments, generations > 0);
-    condition.robot = experiment::load_robot(condition.config);
+    condition.robot = robot_of(condition.config, robots);
   } catch (const UserError& error) {
     std::string mistake = error.what();
     constexpr std::string_view typed = "--set ";  // what nobody has typed here
@@ -368,8 +377,9 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
   for (std::size_t i = 0; i < study.tests.size(); ++i) tests.push_back(plan_test(study, i));
   std::vector<std::vector<std::int64_t>> seeds;
   std::size_t most_seeds = 0;
+  RobotsByFile robots;
   for (std::size_t i = 0; i < study.conditions.size(); ++i) {
-    plan.conditions.push_back(plan_condition(study, i, tests));
+    plan.conditions.push_back(plan_condition(study, i, tests, robots));
     seeds.push_back(study.seeds_of(study.conditions[i]));
     most_seeds = std::max(most_seeds, seeds.back().size());
   }
