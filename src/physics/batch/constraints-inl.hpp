@@ -32,6 +32,10 @@ HWY_INLINE Block block_at(const Pass& pass, int index, int n) {
   return {pass.scratch(pass.work().blocks + index * size), n + 6};
 }
 
+/// How the rows of chains are relaxed. `together`: block by block, the three motors of a chain with its first
+/// contact; only for chains of three joints without friction. `alone`: row by row.
+enum class Rows { together, alone };
+
 /// The rows of a block while it is built, column by column: a column, one entry of the W of each row, is
 /// written as soon as it is known, so that few vectors are waiting for a register.
 template <int N, int rows>
@@ -96,11 +100,12 @@ struct ConstraintRows {
 
 /// The columns of the joint rows from `first` on. J is the unit vector of the joint, so W_c is a column of
 /// L_c⁻¹ and J_b = 0.
-template <int N, int rows>
+template <int N, Rows relaxed, int rows>
 HWY_INLINE void put_joint_columns(const Pass& pass, const Chain& chain, const ChainFactor& factor, int first,
                                   ConstraintRows<N, rows>& row_set) {
   int joint[rows];
-  for (int r = 0; r < rows; ++r) joint[r] = N >= 0 ? first + r : pass.row_of(chain, first + r).link;
+  for (int r = 0; r < rows; ++r)
+    joint[r] = relaxed == Rows::together ? first + r : pass.row_of(chain, first + r).link;
   for (int i = 0; i < factor.n; ++i) {
     V* const w = row_set.w_chain[i];
     for (int r = 0; r < rows; ++r) {
@@ -123,7 +128,7 @@ HWY_INLINE void put_joint_columns(const Pass& pass, const Chain& chain, const Ch
 }
 
 /// Builds a block of up to three joint rows of a chain, from row `first` on; false if no lane has such a row.
-template <int N, int rows>
+template <int N, Rows relaxed, int rows>
 HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFactor& factor, int first,
                             const Block& block, V* u_joints, V* u_base) {
   Mask enabled = no_lanes();
@@ -137,7 +142,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
   }
   if (hn::AllFalse(Floats(), hn::And(enabled, pass.active()))) return false;
   row_set.begin();
-  put_joint_columns(pass, chain, factor, first, row_set);
+  put_joint_columns<N, relaxed>(pass, chain, factor, first, row_set);
   row_set.find_scales(pass.model().joint_relaxation);
   for (int r = 0; r < rows; ++r) {
     const float* const joint_row = pass.joint_row(chain, first + r);
@@ -154,18 +159,18 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
 }
 
 /// Blocks of a chain's joint rows, three rows each.
-template <int N>
+template <int N, Rows relaxed>
 HWY_INLINE void joint_blocks(const Pass& pass, const Chain& chain, const ChainFactor& factor,
                              ChainBlocks& blocks, V* u_joints, V* u_base) {
-  const int n = length<N>(chain), row_count = N >= 0 ? N : chain.row_count;
+  const int n = length<N>(chain), row_count = relaxed == Rows::together ? N : chain.row_count;
   blocks.joint_rows = row_count;
   for (int first = 0; first < row_count; first += 3) {
     const Block block = block_at(pass, blocks.first + blocks.count, n);
     const int rows = row_count - first < 3 ? row_count - first : 3;
     bool any = false;
-    if (rows == 3) any = joint_block<N, 3>(pass, chain, factor, first, block, u_joints, u_base);
-    if (rows == 2) any = joint_block<N, 2>(pass, chain, factor, first, block, u_joints, u_base);
-    if (rows == 1) any = joint_block<N, 1>(pass, chain, factor, first, block, u_joints, u_base);
+    if (rows == 3) any = joint_block<N, relaxed, 3>(pass, chain, factor, first, block, u_joints, u_base);
+    if (rows == 2) any = joint_block<N, relaxed, 2>(pass, chain, factor, first, block, u_joints, u_base);
+    if (rows == 1) any = joint_block<N, relaxed, 1>(pass, chain, factor, first, block, u_joints, u_base);
     if (!any) {
       for (int r = first; r < first + rows; ++r)
         pass.set_state(pass.rows().joint_impulse + chain.first_row + r, zero());

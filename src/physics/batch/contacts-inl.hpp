@@ -290,7 +290,7 @@ HWY_INLINE void solve_base_rows(const BaseFactor& base, const ChainFactor& facto
 }
 
 /// All blocks of a chain, from `first_block` on. Replaces its B_c by L_b⁻¹ B_c.
-template <int N>
+template <int N, Rows relaxed>
 HWY_INLINE void build_chain_blocks(const Pass& pass, std::size_t c, const BaseFactor& base,
                                    const UnitWrenches& wrenches, int first_block, V* u_base) {
   const Chain& chain = pass.model().chains[c];
@@ -302,15 +302,15 @@ HWY_INLINE void build_chain_blocks(const Pass& pass, std::size_t c, const BaseFa
   V u_joints[capacity<N>];
   for (int j = 0; j < n; ++j) u_joints[j] = load(u_chain + j * width);
   solve_base_rows(base, factor);
-  joint_blocks<N>(pass, chain, factor, blocks, u_joints, u_base);
+  joint_blocks<N, relaxed>(pass, chain, factor, blocks, u_joints, u_base);
   contact_blocks<N>(pass, static_cast<int>(c) + 1, &chain, factor, wrenches, blocks, u_joints, u_base);
-  if (N == 3 && blocks.paired())
+  if (relaxed == Rows::together && blocks.paired())
     cross_products(block_at(pass, blocks.first, n), block_at(pass, blocks.first + 1, n));
   for (int j = 0; j < n; ++j) store(u_joints[j], u_chain + j * width);
 }
 
 /// All blocks, warm-started: torso first, then chain by chain.
-template <int N>
+template <int N, Rows relaxed>
 HWY_NOINLINE void build_blocks(const Pass pass, const BaseFactor& base, V* u_base) {
   const UnitWrenches wrenches = unit_wrenches(pass, base);
   ChainBlocks& torso = pass.work().chain_blocks[0];
@@ -319,7 +319,7 @@ HWY_NOINLINE void build_blocks(const Pass pass, const BaseFactor& base, V* u_bas
   contact_blocks<0>(pass, 0, nullptr, {nullptr, 0}, wrenches, torso, none, u_base);
   int first = torso.count;
   for (std::size_t c = 0; c < pass.model().chains.size(); ++c) {
-    build_chain_blocks<N>(pass, c, base, wrenches, first, u_base);
+    build_chain_blocks<N, relaxed>(pass, c, base, wrenches, first, u_base);
     first += pass.work().chain_blocks[c + 1].count;
   }
 }

@@ -137,9 +137,8 @@ HWY_INLINE void unconstrained_chain(const Pass& pass, const LaneArray& targets_r
     }
     store(sum, row);
   }
-  if constexpr (N < 0)
-    for (int r = n; r < chain.row_count; ++r)
-      apply_friction(pass, pass.link(chain, pass.row_of(chain, r).link), pass.joint_row(chain, r));
+  for (int r = n; r < chain.row_count; ++r)
+    apply_friction(pass, pass.link(chain, pass.row_of(chain, r).link), pass.joint_row(chain, r));
 }
 
 /// Factorises M, and computes u = Lᵀ ν after a step without constraints. Base: with gravity g (which

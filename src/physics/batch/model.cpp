@@ -225,12 +225,13 @@ Model::Model(const RobotSpec& robot)
   Builder(robot, *this).build();
   for (const Chain& chain : chains) {
     longest_chain = std::max(longest_chain, chain.count);
-    plain_chains = plain_chains && chain.count == chains[0].count && chain.row_count == chain.count;
+    equal_chains = equal_chains && chain.count == chains[0].count;
+    joint_friction = joint_friction || chain.row_count > chain.count;
     for (int l = chain.count - 1; l >= 0; --l) {
       Link& link = links[to_index(chain.first + l)];
       if (link.has_mass) link.outer_mass_kg += link.body.mass_kg;
       if (link.parent >= 0) links[to_index(chain.first + link.parent)].outer_mass_kg += link.outer_mass_kg;
-      plain_chains = plain_chains && link.parent == l - 1;
+      equal_chains = equal_chains && link.parent == l - 1;
     }
   }
 }

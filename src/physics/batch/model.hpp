@@ -102,7 +102,8 @@ struct Model {
   int iterations = 0;
   int legs = 0;
   int longest_chain = 0;
-  bool plain_chains = true;  ///< all have longest_chain links, do not branch, and have no friction in joints
+  bool equal_chains = true;     ///< all have longest_chain links and do not branch
+  bool joint_friction = false;  ///< some joint has dry friction
 
   static constexpr int max_chain = 24;
 };

@@ -117,10 +117,10 @@ HWY_INLINE void relax_pair(const Block& motors, const Block& contact, V* u_joint
   apply<n, 3, bound>(contact, contact_impulse, contact_change, u_joints, u_base);
 }
 
-/// relax() for chains of any length, with an update of u after each row.
-template <int rows, Bound bound>
-HWY_INLINE void relax_any_length(const Block& block, V* u_joints, V* u_base) {
-  const int n = block.entries - 6;
+/// relax() with an update of u after each row.
+template <int N, int rows, Bound bound>
+HWY_INLINE void relax_alone(const Block& block, V* u_joints, V* u_base) {
+  const int n = N >= 0 ? N : block.entries - 6;
   V normal = zero();
   for (int r = 0; r < rows; ++r) {
     const float* const w = block.w(r);
@@ -138,12 +138,12 @@ HWY_INLINE void relax_any_length(const Block& block, V* u_joints, V* u_base) {
 }
 
 /// N: length of the chain, or −1.
-template <int N, int rows, Bound bound>
+template <int N, Rows relaxed, int rows, Bound bound>
 HWY_INLINE void relax_block(const Block& block, V* u_joints, V* u_base) {
-  if constexpr (N >= 0) {
+  if constexpr (relaxed == Rows::together) {
     relax<N, rows, bound>(block, u_joints, u_base);
   } else {
-    relax_any_length<rows, bound>(block, u_joints, u_base);
+    relax_alone<N, rows, bound>(block, u_joints, u_base);
   }
 }
 
@@ -168,10 +168,10 @@ HWY_INLINE BlockWalk first_block(const Pass& pass) {
 }
 
 /// One sweep over the blocks of the torso (N = 0) or of a chain.
-template <int N, Bound contact>
+template <int N, Rows relaxed, Bound contact>
 HWY_INLINE void relax_chain(const ChainBlocks& blocks, int n, BlockWalk& walk, V* u_joints, V* u_base) {
   const int entries = N >= 0 ? N : n;
-  if constexpr (N == 3) {
+  if constexpr (N == 3 && relaxed == Rows::together) {
     if (blocks.paired()) {
       const Block motors = walk.take(N), first_contact = walk.take(N);
       relax_pair<N, contact>(motors, first_contact, u_joints, u_base);
@@ -182,20 +182,20 @@ HWY_INLINE void relax_chain(const ChainBlocks& blocks, int n, BlockWalk& walk, V
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const int left = blocks.joint_rows - *walk.first_joint;
     const Block block = walk.take(entries);
-    if (N == 3 || left >= 3) {
-      relax_block<N, 3, Bound::joint>(block, u_joints, u_base);
+    if (relaxed == Rows::together || left >= 3) {
+      relax_block<N, relaxed, 3, Bound::joint>(block, u_joints, u_base);
     } else if (left == 2) {
-      relax_block<N, 2, Bound::joint>(block, u_joints, u_base);
+      relax_block<N, relaxed, 2, Bound::joint>(block, u_joints, u_base);
     } else {
-      relax_block<N, 1, Bound::joint>(block, u_joints, u_base);
+      relax_block<N, relaxed, 1, Bound::joint>(block, u_joints, u_base);
     }
   }
   for (int b = blocks.joint_blocks; b < blocks.count; ++b)
-    relax_block<N, 3, contact>(walk.take(entries), u_joints, u_base);
+    relax_block<N, relaxed, 3, contact>(walk.take(entries), u_joints, u_base);
 }
 
 /// All sweeps: u (u_joints in the scratch memory and u_base) after the constraints.
-template <int N, Bound contact>
+template <int N, Rows relaxed, Bound contact>
 HWY_NOINLINE void solve(const Pass pass, V* u_base_out) {
   const Chain* const chains = pass.model().chains.data();
   const ChainBlocks* const blocks = pass.work().chain_blocks.data();
@@ -206,13 +206,13 @@ HWY_NOINLINE void solve(const Pass pass, V* u_base_out) {
   for (int sweeps = pass.model().iterations; sweeps > 0; --sweeps) {
     BlockWalk walk = first_block(pass);
     V none[1];
-    relax_chain<0, contact>(blocks[0], 0, walk, none, u_base);
+    relax_chain<0, Rows::together, contact>(blocks[0], 0, walk, none, u_base);
     for (std::size_t c = 0; c < chain_count; ++c) {
       const int n = length<N>(chains[c]);
       float* const u_chain = all_u_joints + chains[c].first * width;
       V u_joints[capacity<N>];
       for (int j = 0; j < n; ++j) u_joints[j] = load(u_chain + j * width);
-      relax_chain<N, contact>(blocks[c + 1], n, walk, u_joints, u_base);
+      relax_chain<N, relaxed, contact>(blocks[c + 1], n, walk, u_joints, u_base);
       for (int j = 0; j < n; ++j) store(u_joints[j], u_chain + j * width);
     }
   }

@@ -213,7 +213,7 @@ HWY_NOINLINE void measure_torques(const Pass pass) {
 }
 
 /// One step up to the new state; the numbers are those of docs/BATCH.md, "One step".
-template <int N>
+template <int N, Rows relaxed>
 HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
   detect_contacts(pass);             // 1
   Base base = mass_matrix<N>(pass);  // 2
@@ -221,25 +221,28 @@ HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
   BaseFactor factor;
   V u_base[6];
   unconstrained_velocity<N>(pass, targets_rad, base, factor, u_base);  // 4
-  build_blocks<N>(pass, factor, u_base);                               // 5
+  build_blocks<N, relaxed>(pass, factor, u_base);                      // 5
   if (std::isinf(pass.model().friction)) {
-    solve<N, Bound::sticking>(pass, u_base);
+    solve<N, relaxed, Bound::sticking>(pass, u_base);
   } else {
-    solve<N, Bound::pyramid>(pass, u_base);
+    solve<N, relaxed, Bound::pyramid>(pass, u_base);
   }
   integrate<N>(pass, factor, u_base);  // 6
 }
 
-/// Robots whose chains all have three joints (the quadruped, most hexapods) have code with fixed lengths.
+/// Robots whose chains all have three joints (most quadrupeds and hexapods) have code with fixed lengths.
 void step_lanes(const StepArguments& arguments, const LaneArray& targets_rad) {
-  const bool three_joints = arguments.model.plain_chains && arguments.model.longest_chain == 3;
+  const Model& model = arguments.model;
+  const bool three_joints = model.equal_chains && model.longest_chain == 3;
   for (int lane = 0; lane < lanes; lane += width) {
     const Pass pass(arguments, lane);
     if (hn::AllFalse(Floats(), pass.active())) continue;
-    if (three_joints) {
-      step_chains<3>(pass, targets_rad);
+    if (three_joints && !model.joint_friction) {
+      step_chains<3, Rows::together>(pass, targets_rad);
+    } else if (three_joints) {
+      step_chains<3, Rows::alone>(pass, targets_rad);
     } else {
-      step_chains<-1>(pass, targets_rad);
+      step_chains<-1, Rows::alone>(pass, targets_rad);
     }
     if (arguments.torques_nm != nullptr) measure_torques(pass);
     forward_kinematics(pass);
