@@ -89,6 +89,14 @@ TEST_P(JointTree, OfLegsWithThreeJointsAndDryFrictionMovesAlikeInAllEngines) {
   expect_alike(GetParam(), robot, 4e-3);
 }
 
+TEST_P(JointTree, OfLegsWithThreeJointsOfWhichSomeHaveDryFrictionMovesAlikeInAllEngines) {
+  robot::RobotSpec robot = weightless(quadruped());
+  robot.contact.cfm_s_per_kg = 1e-9;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (j % 5 < 2) robot.joints[j].friction_loss_nm = 0.5 * robot.joints[j].servo.max_torque_nm;
+  expect_alike(GetParam(), robot, 4e-3);
+}
+
 /// Three hinges on one body that neither cross nor are at right angles.
 robot::RobotSpec shoulder() {
   robot::RobotSpec robot = weightless(quadruped());
