@@ -34,6 +34,7 @@ struct SmallRun {
   const char* search;
   int leg_rows;
   const char* hash;
+  double friction_loss_nm = 0.0;  ///< of every other joint
 };
 
 void PrintTo(const SmallRun& small, std::ostream* out) {
@@ -104,7 +105,9 @@ controllers::ControllerSettings controller_settings(const std::string& name) {
 std::string run_hash(const SmallRun& small) {
   constexpr int steps = 150, rounds = 6;
   constexpr double timestep_s = 0.01;
-  const robot::RobotSpec robot = legged_robot(small.leg_rows);
+  robot::RobotSpec robot = legged_robot(small.leg_rows);
+  for (std::size_t j = 0; j < robot.joints.size(); j += 2)
+    robot.joints[j].friction_loss_nm = small.friction_loss_nm;
   const auto architecture =
       controllers::make_architecture(controller_settings(small.controller), robot, timestep_s);
 
@@ -185,9 +188,11 @@ INSTANTIATE_TEST_SUITE_P(SameBits, GoldenEvolution,
                                          SmallRun{"oscillators", "cma-es", 2, "386755dc2e856f79"},
                                          SmallRun{"supg", "map-elites-dominated", 2, "789b15833b541787"},
                                          SmallRun{"oscillators", "map-elites-line", 2, "9b8ad1e8cae227ce"},
-                                         SmallRun{"oscillators", "map-elites-cma", 2, "3cce0043fedb163f"}),
+                                         SmallRun{"oscillators", "map-elites-cma", 2, "3cce0043fedb163f"},
+                                         SmallRun{"supg", "objective", 2, "ed560bfd06151878", 0.1}),
                          [](const auto& small) {
                            std::string name = std::string(small.param.controller) + "_" + small.param.search;
+                           if (small.param.friction_loss_nm > 0.0) name += "_with_friction";
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
