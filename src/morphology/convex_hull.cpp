@@ -54,20 +54,6 @@ class HullBuilder {
     return best;
   }
 
-  /// The same for the distance along a direction: as nearly all time is spent here, a plain loop.
-  int farthest_along(Vec3 direction) const {
-    int best = 0;
-    double most = dot(direction, points_[0]);
-    const auto count = static_cast<int>(points_.size());
-    for (int i = 1; i < count; ++i) {
-      const double value = dot(direction, points_[to_index(i)]);
-      if (!(value > most)) continue;  // nor where it is not a number
-      most = value;
-      best = i;
-    }
-    return best;
-  }
-
   bool add_first_tetrahedron() {
     if (points_.size() < 4) return false;
     const int a = farthest([](Vec3 p) { return p.x + 1e-3 * p.y + 1e-6 * p.z; });
@@ -99,7 +85,7 @@ class HullBuilder {
     }
     Face face{corners, normal, dot(normal, point(corners[0]))};
     if (length > 0.0) {
-      face.farthest = farthest_along(normal);
+      face.farthest = farthest([&](Vec3 p) { return dot(normal, p); });
       face.distance_m = dot(normal, point(face.farthest)) - face.offset_m;
     }
     faces_.push_back(face);
