@@ -17,6 +17,7 @@
 #include "amble/core/index.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
+#include "amble/morphology/foot_contact.hpp"
 #include "amble/morphology/foot_shapes.hpp"
 #include "amble/morphology/leg_guess.hpp"
 #include "amble/morphology/number_text.hpp"
@@ -263,6 +264,7 @@ class RobotGuesser {
     doubt_readings();
     std::ranges::move(doubts_of_motors(file_, parts_, servos_, bearing_nm_),
                       std::back_inserter(guess_.doubts));
+    std::ranges::move(doubts_of_feet(file_, parts_, legs_), std::back_inserter(guess_.doubts));
     if (std::ranges::any_of(servos_, &ServoGuess::has_no_speed_limit))
       guess_.settled.emplace_back(
           "position actuators turn as fast as their torque allows, as an MJCF has no greatest speed; if what "
@@ -396,60 +398,12 @@ class RobotGuesser {
     for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", io::toml_key(name), angle);
   }
 
-  bool is_floor(int g) const {
-    const mjModel& model = *file_.model;
-    return model.geom_type[g] == mjGEOM_PLANE && model.body_weldid[model.geom_bodyid[g]] == 0;
-  }
-
-  /// A plane of the model's world that this geom touches; negative: none.
-  int floor_of(int foot) const {
-    const mjModel& model = *file_.model;
-    for (int g = 0; g < model.ngeom; ++g)
-      if (is_floor(g) && ((model.geom_contype[g] & model.geom_conaffinity[foot]) != 0 ||
-                          (model.geom_conaffinity[g] & model.geom_contype[foot]) != 0))
-        return g;
-    return -1;
-  }
-
-  /// As MuJoCo takes it: the greater one, or that of the geom of higher priority.
-  void write_friction() {
-    if (legs_.legs.empty()) {
-      line("friction = 1  # of no foot");
-      return;
-    }
-    const mjModel& model = *file_.model;
-    const int foot = parts_.model_geoms[to_index(legs_.legs[0].foot_geom)];
-    for (int p = 0; p < model.npair; ++p) {
-      const int one = model.pair_geom1[p], two = model.pair_geom2[p], other = one == foot ? two : one;
-      if ((one != foot && two != foot) || !is_floor(other)) continue;
-      line("friction = {:.4g}  # of the pair of the first foot and the floor, as in MuJoCo",
-           model.pair_friction[5 * p]);
-      return;
-    }
-    const int floor = floor_of(foot);
-    const double own = model.geom_friction[3 * foot];
-    if (floor < 0) {
-      line("friction = {:.4g}  # of the first foot in the model, which has no floor", own);
-      return;
-    }
-    const double of_floor = model.geom_friction[3 * floor];
-    const int ahead = model.geom_priority[foot] - model.geom_priority[floor];
-    if (ahead == 0)
-      line(
-          "friction = {:.4g}  # the greater of the first foot's, {:.4g}, and the floor's, {:.4g}, as in "
-          "MuJoCo",
-          std::max(own, of_floor), own, of_floor);
-    else
-      line("friction = {:.4g}  # of the {}, which has the higher priority; the {} has {:.4g}",
-           ahead > 0 ? own : of_floor, ahead > 0 ? "first foot" : "floor", ahead > 0 ? "floor" : "first foot",
-           ahead > 0 ? of_floor : own);
-  }
-
   void write_contact() {
     double mass_kg = 0.0;
     for (const robot::Body& body : parts_.bodies) mass_kg += body.mass_kg;
     line("\n[contact]");
-    write_friction();
+    const FootFriction friction = foot_friction(file_, parts_, legs_);
+    line("friction = {:.4g}  # {}", friction.coefficient, friction.source);
     comment("As the paper's quadruped; softness by weight, so that the robot sinks in as far.");
     line("erp = 0.1");
     line("cfm_s_per_kg = {:.3g}  # {} × {} kg / {:.4g} kg", paper_cfm_s_per_kg * paper_mass_kg / mass_kg,

@@ -14,17 +14,17 @@
 namespace amble::score {
 namespace {
 
-/// Their mean; of a circular quantity the short way round from the first one.
-double mean_of(std::vector<double> values, const Quantity& quantity, int leg) {
-  const double turn = quantity.range.highest - quantity.range.lowest;
-  const bool circular = quantity.circular && (!quantity.of_legs || leg >= 0);  // not a mean over legs
-  if (circular)
-    for (double& value : values) value -= turn * std::round((value - values.front()) / turn);
+/// A mean over legs is not circular.
+Circle circle_of(const Quantity& quantity, bool of_one_leg) {
+  if (!quantity.circular || (quantity.of_legs && !of_one_leg)) return {};
+  return {.lowest = quantity.range.lowest, .turn = quantity.range.highest - quantity.range.lowest};
+}
+
+/// Of a circular quantity the short way round from the first one.
+double mean_of(std::span<const double> values, const Circle& circle) {
   double sum = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / static_cast<double>(values.size());
-  if (!circular || (mean >= quantity.range.lowest && mean <= quantity.range.highest)) return mean;
-  return mean < quantity.range.lowest ? mean + turn : mean - turn;
+  for (const double value : values) sum += circle.nearest(value, values.front());
+  return circle.inside(sum / static_cast<double>(values.size()));
 }
 
 class NoBehaviour final : public Behaviour {
@@ -69,7 +69,9 @@ DescriptorBehaviour::DescriptorBehaviour(const BehaviourSettings& settings)
     : score_(settings.score), duration_s_(settings.duration_s), weight_n_(settings.weight_n) {
   const std::string key = "search.map_elites.descriptors";
   for (const Descriptor& descriptor : settings.descriptors) {
-    Dimension& dimension = dimensions_.emplace_back(Dimension{&quantity(descriptor.quantity, key), -1});
+    const Quantity& named = quantity(descriptor.quantity, key);
+    Dimension& dimension = dimensions_.emplace_back(
+        Dimension{.quantity = &named, .leg = -1, .circle = circle_of(named, !descriptor.leg.empty())});
     if (descriptor.leg.empty()) continue;
     if (!dimension.quantity->of_legs)
       fail_setting({key}, "{}: {}: leg = \"{}\": it is a quantity of the whole robot", key,
@@ -89,6 +91,12 @@ record::Measures DescriptorBehaviour::measures() const {
   return all;
 }
 
+std::vector<Circle> DescriptorBehaviour::circles() const {
+  std::vector<Circle> all;
+  for (const Dimension& dimension : dimensions_) all.push_back(dimension.circle);
+  return all;
+}
+
 std::vector<float> DescriptorBehaviour::of(std::span<const record::Trajectory> episodes) const {
   AMBLE_CHECK(!episodes.empty(), "an evaluation has an episode");
   std::vector<float> means;
@@ -99,7 +107,7 @@ std::vector<float> DescriptorBehaviour::of(std::span<const record::Trajectory> e
     std::vector<double> values;
     for (const record::Trajectory& episode : episodes)
       values.push_back(dimension.quantity->of(episode, context));
-    means.push_back(static_cast<float>(mean_of(values, *dimension.quantity, dimension.leg)));
+    means.push_back(static_cast<float>(mean_of(values, dimension.circle)));
   }
   return means;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/circle.hpp"
 #include "amble/record/trajectory.hpp"
 #include "amble/score/score.hpp"
 
@@ -24,6 +25,8 @@ class Behaviour {
   virtual record::PathSampling path() const { return {}; }
   /// Measurements of trials that it needs.
   virtual record::Measures measures() const { return {}; }
+  /// Of each number, whether it is one of a circle; empty: none is.
+  virtual std::vector<Circle> circles() const { return {}; }
   /// The behaviour of one evaluation's episodes (at least one: AMBLE_CHECK), length() numbers also for trials
   /// that ended early. They were sampled as path() says, and measures() were taken.
   virtual std::vector<float> of(std::span<const record::Trajectory> episodes) const = 0;
@@ -70,12 +73,14 @@ class DescriptorBehaviour : public Behaviour {
   explicit DescriptorBehaviour(const BehaviourSettings& settings);
   std::size_t length() const override { return dimensions_.size(); }
   record::Measures measures() const override;
+  std::vector<Circle> circles() const override;
   std::vector<float> of(std::span<const record::Trajectory> episodes) const override;
 
  private:
   struct Dimension {
     const Quantity* quantity;
-    int leg;
+    int leg;  ///< -1: of the whole robot, the mean over legs, or not looked up
+    Circle circle;
   };
   Settings score_;
   double duration_s_, weight_n_;

@@ -26,21 +26,6 @@ double mean_with(double before, double last, std::uint32_t count) {
   return before + (last - before) / count;
 }
 
-/// One more evaluation in the means of an elite. The spread by Welford's formula.
-void add_evaluation(Elite& elite, std::vector<float>& descriptor, const Evaluation& evaluation,
-                    std::span<const DescriptorSettings> dimensions) {
-  const double before = elite.evaluations, after = ++elite.evaluations;
-  elite.objective = mean_with(elite.objective, evaluation.objective, elite.evaluations);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < descriptor.size(); ++i) {
-    const double value = double{evaluation.behaviour[i]}, mean = double{descriptor[i]};
-    const double difference = (value - mean) / (dimensions[i].most - dimensions[i].least);
-    squares += difference * difference;
-    descriptor[i] = static_cast<float>(mean_with(mean, value, elite.evaluations));
-  }
-  elite.spread += squares * before / after / static_cast<double>(descriptor.size());
-}
-
 }  // namespace
 
 MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space)
@@ -50,11 +35,13 @@ MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space
       outputs_(space.outputs),
       recurrent_(space.recurrent),
       seed_(space.seed),
+      circles_(space.circles),
       cells_(make_cells(settings)),
       map_(cells_->count(), settings.descriptors.size(), settings.tries_candidates_again()),
       curiosity_(settings.select == Selection::curiosity ? cells_->count() : 0),
       before_(space.inputs, space.outputs, space.neat.innovations),
       innovations_(before_) {
+  circles_.resize(settings.descriptors.size());
   if (settings.variation == Variation::cma) emitters_.emplace(settings, space, cells_->count());
   if (settings.select == Selection::dominated)
     pool_.emplace(to_index(settings.pool.size), to_index(settings.pool.neighbours));
@@ -248,7 +235,7 @@ void MapElites::take_child(std::uint32_t candidate, const Evaluation& evaluation
 void MapElites::take_challenger(Challenger challenger, const Evaluation& evaluation) {
   ++counts_.reevaluated;
   if (!evaluation.viable) return credit_parent(challenger.parent, false);
-  add_evaluation(challenger.elite, challenger.descriptor, evaluation, settings_.descriptors);
+  add_evaluation(challenger.elite, challenger.descriptor, evaluation);
   challenger.elite.cell = cells_->of(challenger.descriptor);
   decide(std::move(challenger));
 }
@@ -281,6 +268,23 @@ std::uint32_t MapElites::most_evaluations(std::uint32_t cell) const {
   return std::clamp(elites()[there].evaluations, trials, most_times * trials);
 }
 
+/// One more evaluation in the means of an elite. The spread by Welford's formula.
+void MapElites::add_evaluation(Elite& elite, std::vector<float>& descriptor,
+                               const Evaluation& evaluation) const {
+  const double before = elite.evaluations, after = ++elite.evaluations;
+  elite.objective = mean_with(elite.objective, evaluation.objective, elite.evaluations);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < descriptor.size(); ++i) {
+    const DescriptorSettings& dimension = settings_.descriptors[i];
+    const double mean = double{descriptor[i]},
+                 value = circles_[i].nearest(double{evaluation.behaviour[i]}, mean);
+    const double difference = (value - mean) / (dimension.most - dimension.least);
+    squares += difference * difference;
+    descriptor[i] = static_cast<float>(circles_[i].inside(mean_with(mean, value, elite.evaluations)));
+  }
+  elite.spread += squares * before / after / static_cast<double>(descriptor.size());
+}
+
 /// One more evaluation of an elite, unless another took its cell in this round.
 void MapElites::reevaluate(const EliteName& name, const Evaluation& evaluation) {
   if (!is_there(name)) return;
@@ -293,7 +297,7 @@ void MapElites::reevaluate(const EliteName& name, const Evaluation& evaluation) 
   }
   const auto before = elites().descriptor(number);
   std::vector<float> descriptor(before.begin(), before.end());
-  add_evaluation(elite, descriptor, evaluation, settings_.descriptors);
+  add_evaluation(elite, descriptor, evaluation);
   const std::uint32_t cell = cells_->of(descriptor);
   if (cell == elite.cell) return map_.update(elite, descriptor);
 

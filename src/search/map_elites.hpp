@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/core/circle.hpp"
 #include "amble/core/random.hpp"
 #include "amble/neat/innovations.hpp"
 #include "amble/search/cells.hpp"
@@ -26,10 +27,10 @@ namespace amble::search {
 ///
 /// - A candidate enters the cell of its descriptor if that is empty, or if its objective is larger than that
 ///   of the elite there. One whose evaluation is not viable never does.
-/// - An elite that is evaluated again has the means of all its evaluations as its objective and descriptor.
-/// If
-///   these belong to another cell, it leaves its own, which is empty then, and enters that by the same rule,
-///   or is lost. So an elite that was lucky once falls back to what it is worth.
+/// - An elite that is evaluated again has the means of all its evaluations as its objective and descriptor,
+///   those of an angle the short way round. If these belong to another cell, it leaves its own, which is
+///   empty then, and enters that by the same rule, or is lost. So an elite that was lucky once falls back to
+///   what it is worth.
 class MapElites : public Strategy {
  public:
   /// The settings must be valid, and `space.neat` innovations of a generation's scope.
@@ -82,6 +83,7 @@ class MapElites : public Strategy {
   void tell_emitters(std::span<const Evaluation> evaluations);
   void fill_pool(std::span<const Evaluation> evaluations);
   void take_child(std::uint32_t candidate, const Evaluation& evaluation);
+  void add_evaluation(Elite& elite, std::vector<float>& descriptor, const Evaluation& evaluation) const;
   void reevaluate(const EliteName& elite, const Evaluation& evaluation);
   void take_challenger(Challenger challenger, const Evaluation& evaluation);
   void decide(Challenger challenger);
@@ -92,6 +94,7 @@ class MapElites : public Strategy {
   int inputs_, outputs_;
   bool recurrent_;
   std::uint64_t seed_;
+  std::vector<Circle> circles_;  ///< of the descriptors
   std::unique_ptr<const Cells> cells_;
 
   int round_ = 0;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/core/circle.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/search/settings.hpp"
 #include "amble/search/strategy.hpp"
@@ -22,6 +23,7 @@ struct SearchSpace {
   bool recurrent = false;            ///< whether CPPNs may have cycles
   std::uint64_t seed = 0;            ///< the run's, from which all randomness follows
   std::size_t behaviour_length = 0;  ///< numbers in each Evaluation::behaviour
+  std::vector<Circle> circles = {};  ///< of each of these numbers; empty: none is one of a circle
 };
 
 /// A search that configs can choose, as the rest of the program sees it.

@@ -259,6 +259,27 @@ TEST(RobotGuess, TakesFrictionFromFootAndFloorAsMujocoDoes) {
                 HasSubstr("friction = 0.7  # of the first foot in the model, which has no floor"));
 }
 
+TEST(RobotGuess, DoubtsFeetThatTheFloorOfTheModelDoesNotBearOrHold) {
+  const Files files;
+  const std::string text = model_of("head").text, floor = R"(<geom type="plane" size="9 9 1")";
+  const auto doubts = [&](const std::string& model) {
+    std::string all;
+    for (const std::string& doubt : guess(files, {"floor", "xml", model, 4, 8, 1}).doubts)
+      all += doubt + "\n";
+    return all;
+  };
+  const std::string of_head = doubts(text);
+  EXPECT_THAT(of_head, Not(HasSubstr("feet of these legs")));
+  EXPECT_THAT(doubts(with(text, floor, floor + R"( contype="2" conaffinity="4")")),
+              HasSubstr("the feet of these legs go through the model's floor"));
+  EXPECT_THAT(doubts(with(text, "</mujoco>", R"(<default><geom condim="1"/></default></mujoco>)")),
+              HasSubstr("the feet of these legs have no friction on the model's floor"));
+  // By the floor's higher priority.
+  EXPECT_THAT(doubts(with(text, floor, floor + R"( condim="1" priority="1")")), HasSubstr("by condim = 1"));
+  EXPECT_EQ(doubts(with(text, floor, floor + R"( condim="1")")), of_head) << "the greater one counts";
+  EXPECT_EQ(doubts(with(text, floor + "/>", "")), of_head) << "amble's own floor has friction";
+}
+
 TEST(RobotGuess, CommandsWhatActuatorsTakeAsTargets) {
   const Files files;
   const auto of = [&](const std::string& attributes) {

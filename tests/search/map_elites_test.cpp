@@ -261,6 +261,31 @@ TEST_P(MapElitesSearch, LosesAnEliteWhoseSimulationDiverges) {
   EXPECT_EQ(search.elites().best_objective(), 1.0) << "another took its place";
 }
 
+TEST_P(MapElitesSearch, TakesTheMeanOfAnAngleTheShortWayRound) {
+  // The ends of the outer two of four cells are the same angle.
+  settings_.descriptors.assign(1, {.quantity = "turn", .leg = "", .least = -180.0, .most = 180.0, .bins = 4});
+  settings_.initial = settings_.batch;
+  SearchSpace one = space();
+  one.behaviour_length = 1;
+  for (const bool is_angle : {true, false}) {
+    if (is_angle)
+      one.circles = {{.lowest = -180.0, .turn = 360.0}};
+    else
+      one.circles.clear();
+    MapElites search(settings_, one);
+    for (const float angle : {170.0f, -150.0f}) {
+      const std::vector<float> behaviour{angle};
+      std::vector<Evaluation> all(search.ask().size(),
+                                  {.objective = 1.0, .behaviour = behaviour, .viable = false});
+      all[0].viable = true;  // in the second round it is the elite again
+      search.tell(all);
+    }
+    ASSERT_EQ(search.elites().size(), 1u);
+    EXPECT_EQ(search.elites().descriptor(0)[0], is_angle ? -170.0f : 10.0f);
+    EXPECT_NEAR(search.elites()[0].spread, std::pow((is_angle ? 40.0 : 320.0) / 360.0, 2) / 2.0, 1e-6);
+  }
+}
+
 TEST_P(MapElitesSearch, ThatHasLostAllElitesBeginsWithTheLinksOfItsFirstRound) {
   MapElites search = of_one_cell();
   const std::vector<float> descriptor{0.5f};

@@ -32,12 +32,14 @@ std::uint64_t config_hash(const Config& config) {
 }  // namespace
 
 search::SearchSpace space_of(const Config& config, const Problem& problem) {
+  const auto behaviour = config.make_behaviour();
   return {.neat = config.neat,
           .inputs = problem.cppn_inputs(),
           .outputs = problem.cppn_outputs(),
           .recurrent = config.cppn.recurrent,
           .seed = static_cast<std::uint64_t>(config.seed),
-          .behaviour_length = config.make_behaviour()->length()};
+          .behaviour_length = behaviour->length(),
+          .circles = behaviour->circles()};
 }
 
 RunState::RunState(const Config& config, const Problem& problem)
