@@ -14,7 +14,7 @@ namespace {
 /// As engines sense it.
 float yaw_of_start(const robot::RobotSpec& robot) {
   const Quat level = robot::horizontal_frame(robot.gravity_m_s2);
-  return static_cast<float>(roll_pitch_yaw(conjugate(level) * robot.bodies[0].rotation).yaw_rad);
+  return static_cast<float>(roll_pitch_yaw(conjugate(level)).yaw_rad);
 }
 
 /// A controller per genome, one after the other in the lanes of one batch.

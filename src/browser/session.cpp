@@ -142,6 +142,7 @@ std::string Session::describe() const {
       {"columns", column_names(problem, *trial_)},
       {"cppn_inputs", problem.architecture->cppn_inputs()},
       {"cppn_outputs", problem.architecture->cppn_outputs()},
+      {"cppn_linear", cppn::linear_names[static_cast<std::size_t>(problem.cppn.linear)]},
       {"robot", robot::to_json(damage::as_drawn(problem.robot, problem.damage))},
       {"controller",
        io::parse_json(problem.architecture->parameters_json(trial_->parameters()), "controller")},

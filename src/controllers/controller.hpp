@@ -73,6 +73,8 @@ class Architecture {
   /// Whether its controllers read this sensor, so that how it is read ([controller.sensing]) has an effect;
   /// true where that is not known.
   virtual bool reads(const substrate::Sensor&) const { return true; }
+  /// Whether they multiply it by its `scale`, and not only compare it, or steer by it as it is.
+  virtual bool scales(const substrate::Sensor& sensor) const { return reads(sensor); }
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).
   virtual std::string parameters_json(const Parameters& parameters) const = 0;
 };

@@ -96,7 +96,9 @@ class Steering {
                             ? std::clamp(sensors.command.at(0, lane) / full_speed_m_s_, -1.0f, 1.0f)
                             : 1.0f;
     const float inner = speed * std::max(-1.0f, 1.0f - turn_gain_ * std::abs(turn));
-    return {turn > 0.0f ? inner : speed, turn < 0.0f ? inner : speed, speed, stops ? 0.0f : 1.0f};
+    // Backwards, the legs on the side that the robot turns to go the longer way.
+    const float left = speed < 0.0f ? -turn : turn;
+    return {left > 0.0f ? inner : speed, left < 0.0f ? inner : speed, speed, stops ? 0.0f : 1.0f};
   }
 
  private:

@@ -25,7 +25,7 @@ SwingJoints swing_joints(const robot::RobotSpec& robot, const std::vector<std::s
 /// left), e the heading error (rad), u = w + heading_gain e and each leg's target y about the centre c:
 ///
 ///   a = v / full_speed_m_s, within ± 1; 0 while a stop is commanded; 1 where full_speed_m_s is 0
-///   s = max(−1, 1 − turn_gain |u|) of legs on the inner side (left for u > 0), else 1
+///   s = max(−1, 1 − turn_gain |u|) of legs on the inner side (left for a u > 0), else 1
 ///   swinging joints  y → c + (y − c) a s      all others  y → c + (y − c) b
 ///   b = 0 while a stop is commanded and full_speed_m_s > 0, else 1
 ///
@@ -48,6 +48,7 @@ class DifferentialArchitecture : public Architecture {
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
   bool reads(const substrate::Sensor& sensor) const override;
+  bool scales(const substrate::Sensor& sensor) const override { return walker_->scales(sensor); }
   std::string parameters_json(const Parameters& parameters) const override {
     return walker_->parameters_json(parameters);
   }

@@ -235,7 +235,11 @@ robot::ExtraSenses MixedArchitecture::extra_senses() const {
 }
 
 bool MixedArchitecture::reads(const substrate::Sensor& sensor) const {
-  return SupgArchitecture::reads(sensor) || std::ranges::any_of(net_->sensors, [&](const LegSensor& read) {
+  return SupgArchitecture::reads(sensor) || scales(sensor);
+}
+
+bool MixedArchitecture::scales(const substrate::Sensor& sensor) const {
+  return SupgArchitecture::scales(sensor) || std::ranges::any_of(net_->sensors, [&](const LegSensor& read) {
            return substrate::shares_rows(read.sensor, sensor);
          });
 }

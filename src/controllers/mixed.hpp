@@ -97,6 +97,7 @@ class MixedArchitecture : public SupgArchitecture {
   std::string parameters_json(const Parameters& parameters) const override;
   robot::ExtraSenses extra_senses() const override;
   bool reads(const substrate::Sensor& sensor) const override;
+  bool scales(const substrate::Sensor& sensor) const override;
   const MixedNet& net() const { return *net_; }
   /// Names of the neurons, in the order of MixedNet::neurons.
   std::vector<std::string> neuron_names() const;

@@ -39,6 +39,7 @@ class OscillatorArchitecture : public Architecture {
   bool reads(const substrate::Sensor& sensor) const override {
     return sensor.kind == substrate::Sensor::Kind::touch && settings_.reset == PhaseReset::touch;
   }
+  bool scales(const substrate::Sensor&) const override { return false; }
 
  private:
   OscillatorSettings settings_;

@@ -203,7 +203,11 @@ robot::ExtraSenses SupgArchitecture::extra_senses() const {
 
 bool SupgArchitecture::reads(const substrate::Sensor& sensor) const {
   const bool triggered = settings_.trigger == Trigger::edge || settings_.trigger == Trigger::level;
-  if (triggered && tells_contact(settings_.contact.source, sensor.kind)) return true;
+  return (triggered && tells_contact(settings_.contact.source, sensor.kind)) ||
+         SupgArchitecture::scales(sensor);
+}
+
+bool SupgArchitecture::scales(const substrate::Sensor& sensor) const {
   for (const auto& leg : leg_sensors_)
     for (const LegSensor& read : leg)
       if (read.is_there && substrate::shares_rows(read.sensor, sensor)) return true;

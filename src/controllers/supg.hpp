@@ -149,6 +149,7 @@ class SupgArchitecture : public Architecture {
 
   robot::ExtraSenses extra_senses() const override;
   bool reads(const substrate::Sensor& sensor) const override;
+  bool scales(const substrate::Sensor& sensor) const override;
 
   int period_ticks() const { return period_ticks_; }
   bool modulated() const { return settings_.modulation.any(); }

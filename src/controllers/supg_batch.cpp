@@ -106,12 +106,16 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
   if (contact_) contact_->load(lane);
   for (int leg = 0; leg < supg->legs(); ++leg) {
     begin(leg, lane, *supg);
-    if (!smoother_) continue;
-    const std::int32_t first = offset_ == Offset::phase ? first_timer_[index(leg, lane)] : stopped;
-    const float* const first_rad = supg->targets_rad(leg, first);
-    for (int type = 0; type < supg->types(); ++type)
-      smoother_->load(leg * supg->types() + type, lane, first_rad[type]);
+    smooth_from_start(leg, lane, *supg);
   }
+}
+
+void SupgBatch::smooth_from_start(int leg, int lane, const SupgParameters& supg) {
+  if (!smoother_) return;
+  const std::int32_t first = offset_ == Offset::phase ? first_timer_[index(leg, lane)] : stopped;
+  const float* const first_rad = supg.targets_rad(leg, first);
+  for (int type = 0; type < supg.types(); ++type)
+    smoother_->load(leg * supg.types() + type, lane, first_rad[type]);
 }
 
 void SupgBatch::begin(int leg, int lane, const SupgParameters& supg) {

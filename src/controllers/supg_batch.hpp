@@ -68,6 +68,8 @@ class SupgBatch : public Batch {
   }
   /// The same, and the leg begins as at the start of a trial.
   void begin(int leg, int lane, const SupgParameters& supg);
+  /// What smooths its targets begins with the first ones of `supg`; after begin().
+  void smooth_from_start(int leg, int lane, const SupgParameters& supg);
 
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }

@@ -51,6 +51,7 @@ class SwitchingBatch final : public SupgBatch {
       for (int leg = 0; leg < legs_; ++leg) {
         gait(leg, lane) = wanted_[to_index(lane)];
         begin(leg, lane, gaits_.of(gait(leg, lane)));
+        smooth_from_start(leg, lane, gaits_.of(gait(leg, lane)));
       }
     }
     SupgBatch::step(sensors, targets_rad);

@@ -29,8 +29,9 @@ class GaitChoice {
 ///
 /// A leg takes the wanted gait at its trigger, at the end of its cycle, and while its timer is stopped; its
 /// timer and all else go on as they are. From standing a leg begins as at the start of a trial, by the
-/// offset of the new gait. What is wanted in the first tick is what legs begin with. With one gait, and
-/// without stops, it is to the bit the walker of that gait's genome alone.
+/// offset of the new gait, after one tick with the targets of a timer that is stopped. What is wanted in the
+/// first tick is what legs begin with. With one gait, and without stops, it is to the bit the walker of that
+/// gait's genome alone.
 ///
 /// The CPPN of a champion's own genome is not asked: each gait has one. Programs that write such champions
 /// let the own genome be that of the first gait.
@@ -51,6 +52,7 @@ class SwitchingArchitecture : public Architecture {
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
   bool reads(const substrate::Sensor& sensor) const override;
+  bool scales(const substrate::Sensor& sensor) const override { return walker_->scales(sensor); }
   /// What the own genome gives, and how many `gaits` there are.
   std::string parameters_json(const Parameters& parameters) const override;
 

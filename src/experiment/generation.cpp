@@ -41,7 +41,10 @@ bool final_round(Evaluator& evaluator, const Problem& problem, std::span<const n
   double worst = evaluated.objectives[finalists.front()];
   for (std::size_t f = 0; f < finalists.size(); ++f) {
     auto scores = credited_scores(problem, evaluated.result.of_genome(finalists[f]));
-    for (const double score : credited_scores(problem, again->of_genome(f))) scores.push_back(score);
+    const auto further = again->of_genome(f);
+    for (const double score : credited_scores(problem, further)) scores.push_back(score);
+    if (std::ranges::count(further, record::Outcome::diverged, &record::Trajectory::outcome) > 0)
+      evaluated.diverged.push_back(finalists[f]);
     double& own = evaluated.objectives[finalists[f]];
     own = objective(problem.noise.score, scores);
     worst = f == 0 ? own : std::min(worst, own);
@@ -75,7 +78,10 @@ std::size_t EvaluatedGeneration::best() const {
 }
 
 ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour) {
-  return told(evaluated.result.trajectories, evaluated.result.episodes, evaluated.objectives, behaviour);
+  ToldGeneration all =
+      told(evaluated.result.trajectories, evaluated.result.episodes, evaluated.objectives, behaviour);
+  for (const std::size_t i : evaluated.diverged) all.evaluations[i].viable = false;
+  return all;
 }
 
 std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,

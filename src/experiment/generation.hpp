@@ -20,6 +20,7 @@ struct EvaluatedGeneration {
   GenerationResult result;         ///< of the trials that every genome has; steps and times of all trials
   std::vector<double> objectives;  ///< of all trials of each genome, by the problem's score; default m
   std::vector<std::size_t> finalists = {};  ///< who had further trials, in order; empty: nobody
+  std::vector<std::size_t> diverged = {};   ///< of whom a further trial diverged, in order
 
   /// The first of those with the largest objective; of the finalists, if there are any: others may count as
   /// much as the worst of them.

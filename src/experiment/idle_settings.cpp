@@ -124,12 +124,17 @@ void find_unread_sensors(const Problem& problem, std::vector<std::string>& idle)
   const std::vector<controllers::SensorSettings>& named = problem.controller.sensing.sensors;
   for (std::size_t i = 0; i < named.size(); ++i) {
     const auto models = controllers::sensor_models({{named[i]}}, problem.robot, problem.trial.timestep_s);
-    const bool is_read = std::ranges::any_of(models, [&](const controllers::SensorModel& model) {
-      return problem.architecture->reads(model.sensor);
-    });
-    if (!is_read)
+    const controllers::Architecture& controller = *problem.architecture;
+    const auto any = [&](bool (controllers::Architecture::*does)(const substrate::Sensor&) const) {
+      return std::ranges::any_of(models, [&](const auto& model) { return (controller.*does)(model.sensor); });
+    };
+    if (!any(&controllers::Architecture::reads))
       idle.push_back(fmt::format("controller.sensing.sensors[{}] has no effect: the controller reads no {}",
                                  i, named[i].of));
+    else if (named[i].scale != 1.0 && !any(&controllers::Architecture::scales))
+      idle.push_back(
+          fmt::format("controller.sensing.sensors[{}].scale has no effect: the controller takes {} as it is",
+                      i, named[i].of));
   }
   if (problem.controller.sensing.heading.lead_rad > 0.0 &&
       !problem.architecture->reads({.kind = substrate::Sensor::Kind::heading_error}))

@@ -228,7 +228,8 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
 }
 
 GenerationRow Run::State::summarise(const EvaluatedGeneration& evaluated) {
-  const auto& [result, objectives, finalists] = evaluated;
+  const GenerationResult& result = evaluated.result;
+  const std::vector<double>& objectives = evaluated.objectives;
   GenerationRow row;
   row.generation = state_.strategy->round();
   row.times = result.times;

@@ -17,7 +17,8 @@ static void update_factors($p_state *state) {
   const float speed = $speed;
   const float left_out = 1.0f - turn_gain * (turn < 0.0f ? -turn : turn);
   const float inner = speed * (-1.0f < left_out ? left_out : -1.0f);
-  const float wanted[4] = {turn > 0.0f ? inner : speed, turn < 0.0f ? inner : speed, speed, stops > 0.5f ? 0.0f : 1.0f};
+  const float left = speed < 0.0f ? -turn : turn;
+  const float wanted[4] = {left > 0.0f ? inner : speed, left < 0.0f ? inner : speed, speed, stops > 0.5f ? 0.0f : 1.0f};
   const float most = state->steered ? most_change : 2.0f;
   int i;
   state->steered = 1;

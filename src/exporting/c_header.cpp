@@ -54,14 +54,17 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, const robo
         "  roll_rad, pitch_rad, yaw_rad  of the trunk against the world (x forward, y left, z up): "
         "R_z(yaw) R_y(pitch) R_x(roll); each from -pi to pi");
   if (tables.reads_speeds())
-    lines.push_back("  speed_rad_s[joint]  rad/s: (angle now - angle one tick ago) / tick; 0 at first");
+    lines.push_back(
+        "  speed_rad_s[joint]  rad/s: (angle now - angle one tick ago) / tick; 0 without a tick before");
   if (tables.reads_torques())
-    lines.push_back("  torque_nm[joint]  N m of the motor about the joint's axis; 0 at first");
+    lines.push_back("  torque_nm[joint]  N m of the motor about the joint's axis; 0 without a tick before");
   if (tables.reads_yaw_rate())
     lines.push_back(
-        "  yaw_rate_rad_s    rad/s: (yaw now - yaw one tick ago, the short way) / tick; 0 at first");
+        "  yaw_rate_rad_s    rad/s: (yaw now - yaw one tick ago, the short way) / tick; 0 without a tick "
+        "before");
   if (tables.reads_loads())
-    lines.push_back("  load_n[leg]       N of the ground against the foot, along its normal; 0 at first");
+    lines.push_back(
+        "  load_n[leg]       N of the ground against the foot, along its normal; 0 without a tick before");
   if (tables.reads_commands())
     lines.push_back(
         "  Commands, by its function set_command: a speed along its own forward axis and a turn to the left");

@@ -89,25 +89,28 @@ Json sensors_json(const ControllerTables& tables) {
                     {"count", tables.joints.size()},
                     {"order", "joints"},
                     {"unit", "rad/s"},
-                    {"meaning", "angle now less angle one tick ago, by the tick; 0 at first"}});
+                    {"meaning", "angle now less angle one tick ago, by the tick; 0 without a tick before"}});
   if (tables.reads_torques())
-    list.push_back({{"name", "torque_nm"},
-                    {"count", tables.joints.size()},
-                    {"order", "joints"},
-                    {"unit", "N m"},
-                    {"meaning", "of the motor about the joint's axis in the last step; 0 at first"}});
+    list.push_back(
+        {{"name", "torque_nm"},
+         {"count", tables.joints.size()},
+         {"order", "joints"},
+         {"unit", "N m"},
+         {"meaning", "of the motor about the joint's axis in the last step; 0 without a tick before"}});
   if (tables.reads_loads())
-    list.push_back({{"name", "load_n"},
-                    {"count", tables.legs.size()},
-                    {"order", "legs"},
-                    {"unit", "N"},
-                    {"meaning", "of the ground against the leg's foot, along its normal; 0 at first"}});
+    list.push_back(
+        {{"name", "load_n"},
+         {"count", tables.legs.size()},
+         {"order", "legs"},
+         {"unit", "N"},
+         {"meaning", "of the ground against the leg's foot, along its normal; 0 without a tick before"}});
   if (tables.reads_yaw_rate())
-    list.push_back({{"name", "yaw_rate_rad_s"},
-                    {"count", 1},
-                    {"order", ""},
-                    {"unit", "rad/s"},
-                    {"meaning", "yaw now less yaw one tick ago, the short way, by the tick; 0 at first"}});
+    list.push_back(
+        {{"name", "yaw_rate_rad_s"},
+         {"count", 1},
+         {"order", ""},
+         {"unit", "rad/s"},
+         {"meaning", "yaw now less yaw one tick ago, the short way, by the tick; 0 without a tick before"}});
   add_told(tables, list);
   return list;
 }

@@ -20,7 +20,8 @@ SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const Engine
       with_torques_(settings.torques),
       with_loads_(settings.loads),
       level_(robot::horizontal_frame(robot.gravity_m_s2)),
-      tilted_(level_ != Quat()) {
+      tilted_(level_ != Quat()),
+      turned_(robot.bodies[0].rotation != Quat()) {
   const int joints = static_cast<int>(robot.joints.size());
   sensors_.joint_angle_rad = LaneArray(joints, 1);
   sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
@@ -63,7 +64,8 @@ void SingleRobotEngine::check_pushable(int lane) const {
 }
 
 void SingleRobotEngine::sense_attitude(const Quat& rotation) {
-  const RollPitchYaw attitude = roll_pitch_yaw(tilted_ ? conjugate(level_) * rotation : rotation);
+  const Quat turned = turned_ ? robot_.turned(rotation) : rotation;
+  const RollPitchYaw attitude = roll_pitch_yaw(tilted_ ? conjugate(level_) * turned : turned);
   sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll_rad);
   sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch_rad);
   sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw_rad);

@@ -45,6 +45,7 @@ class SingleRobotEngine : public Engine {
       loads_n_;                   ///< legs × 1, empty without `with_loads_`
   const Quat level_;              ///< from the level frame to the world: robot::horizontal_frame
   const bool tilted_;             ///< whether the two differ, as on a slope
+  const bool turned_;             ///< whether the root's axes differ from the world's in the start pose
   bool stepping_ = false;         ///< whether the lane is placed
   bool healthy_ = true;           ///< what healthy() gives
 };

@@ -94,8 +94,8 @@ struct Trajectory {
       root_end_m;     ///< Measures::root: and after the last healthy one
   /// Measures::effort: Σ (torque / largest torque)² over motors and steps.
   double effort_steps = 0.0;
-  /// Measures::uprightness: sum over steps of the cosine between the root's z axis and the world's (on a
-  /// slope the ground's normal).
+  /// Measures::uprightness: sum over steps of the cosine between the world's z axis (on a slope the ground's
+  /// normal) and the axis of the root that points along it in the start pose.
   double upright_steps = 0.0;
   /// Measures::contacts: for each leg, the number of steps after which its touch sensor read 1.
   std::vector<int> contact_steps;

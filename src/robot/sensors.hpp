@@ -10,7 +10,8 @@ namespace amble::robot {
 struct SensorFrame {
   LaneArray joint_angle_rad;  ///< joints × lanes, from the robot's own start pose
   LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0
-  LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp) in the level frame
+  /// 3 × lanes: roll, pitch, yaw (core/math.hpp) of RobotSpec::turned() in the level frame.
+  LaneArray attitude_rad;
 
   // What engines leave empty, and trials fill in where it is asked for (trial/senses.hpp).
   LaneArray joint_speed_rad_s =

@@ -22,7 +22,7 @@ bool FallRule::met(double height_m, double up) const {
 }
 
 double RobotSpec::upright(const Quat& root_rotation) const {
-  return rotate(root_rotation * conjugate(bodies[0].rotation), {0.0, 0.0, 1.0}).z;
+  return rotate(turned(root_rotation), {0.0, 0.0, 1.0}).z;
 }
 
 bool Leg::has_foot_geom(int geom) const {

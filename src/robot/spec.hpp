@@ -199,7 +199,10 @@ struct RobotSpec {
   double total_mass_kg() const;
   /// The three numbers above.
   FallRule fall_rule() const { return {fall_height_m, fall_above_m, fall_tilt_rad}; }
-  /// What FallRule::met() takes as `up`, for a root whose axes `root_rotation` takes to the world's.
+  /// How the robot is turned from its start pose, whose x axis points forward and z up, for a root whose axes
+  /// `root_rotation` takes to the world's: whichever way the root's own axes point.
+  Quat turned(const Quat& root_rotation) const { return root_rotation * conjugate(bodies[0].rotation); }
+  /// What FallRule::met() takes as `up`, likewise.
   double upright(const Quat& root_rotation) const;
   /// Number of joints that belong to legs: those at the front of `joints`.
   std::size_t leg_joint_count() const;

@@ -57,14 +57,11 @@ bool Runner::tick(TaskQueue& queue) {
   return busy_ > 0;
 }
 
-void Runner::move_to(physics::Engine& engine, const std::vector<int>& numb_legs) {
+void Runner::move_to(physics::Engine& engine, std::vector<NumbTouch> numb) {
   AMBLE_CHECK(engine.lanes() == engine_->lanes(), "an engine of as many lanes");
   for (const Lane& slot : lanes_)
     AMBLE_CHECK(!slot.busy || slot.task.scenario == nullptr, "a scenario belongs to one engine");
   engine_ = &engine;
-  std::vector<NumbTouch> numb;
-  numb.reserve(numb_legs.size());
-  for (const int leg : numb_legs) numb.push_back({.leg = leg});
   disturbances_ = Disturbances(engine.sensors(), std::move(numb));
 }
 
@@ -132,8 +129,7 @@ void Runner::note_start(Lane& slot, int lane) {
 
 /// The projection on the ground of the root's forward axis, of unit length; unchanged where that is upright.
 void Runner::note_forward(int lane, double& x, double& y) const {
-  const Quat turn = engine_->root_pose(lane).rotation * conjugate(protocol_.start_rotation);
-  const Vec3 forward = rotate(turn, {1.0, 0.0, 0.0});
+  const Vec3 forward = rotate(turned(lane), {1.0, 0.0, 0.0});
   const double length = std::sqrt(forward.x * forward.x + forward.y * forward.y);
   if (!(length > 1e-6)) return;
   x = forward.x / length;
@@ -200,8 +196,12 @@ std::optional<record::Outcome> Runner::advance(int lane) {
 /// What FallRule::met asks for; 1 where that does not matter.
 double Runner::upright(int lane) const {
   if (!std::isfinite(protocol_.fall.tilt_rad)) return 1.0;
-  const Quat turn = engine_->root_pose(lane).rotation * conjugate(protocol_.start_rotation);
-  return rotate(turn, {0.0, 0.0, 1.0}).z;
+  return rotate(turned(lane), {0.0, 0.0, 1.0}).z;
+}
+
+/// As RobotSpec::turned().
+Quat Runner::turned(int lane) const {
+  return engine_->root_pose(lane).rotation * conjugate(protocol_.start_rotation);
 }
 
 /// Adds what scores need of this step to the lane's trajectory.
@@ -209,7 +209,7 @@ void Runner::measure(int lane) {
   Lane& slot = lanes_[to_index(lane)];
   if (protocol_.measures.uprightness) {
     // R_zz of the rotation matrix, from the quaternion.
-    const Quat q = engine_->root_pose(lane).rotation;
+    const Quat q = turned(lane);
     slot.trajectory.upright_steps += 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
   }
   if (protocol_.measures.contacts)

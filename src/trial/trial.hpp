@@ -93,9 +93,9 @@ class Runner {
 
   /// From the next tick on the robots are those of another engine of as many lanes (AMBLE_CHECK), joints and
   /// legs, in which they are placed already; it must outlive the runner. Controllers and what they sense go
-  /// on. AMBLE_CHECK: no trial has a scenario. `numb_legs`: legs whose feet are numb from now on, in place of
-  /// those of Protocol::numb.
-  void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
+  /// on. AMBLE_CHECK: no trial has a scenario. `numb`: in place of Protocol::numb, its steps counted from the
+  /// next one.
+  void move_to(physics::Engine& engine, std::vector<NumbTouch> numb);
 
   /// From the next tick of this lane's trial on its robot is told another command. This changes
   /// Protocol::commands for good: all trials of this runner whose scenario has no commands are told so from
@@ -136,6 +136,7 @@ class Runner {
   std::optional<record::Outcome> advance(int lane);
   void measure(int lane);
   double upright(int lane) const;
+  Quat turned(int lane) const;
   void note_work(int lane);
   void note_footfalls(int lane);
   void note_seconds(int lane);

@@ -44,10 +44,11 @@ std::string ground_json(const Session& session, const std::string& kind, double 
   return ground.dump();
 }
 
-std::string damage_json(const std::string& kind, const std::string& leg, const std::string& joint = "") {
-  const io::Json part{{"kind", kind},     {"leg", leg},   {"joint", joint}, {"body", ""},
-                      {"angle_rad", 0.0}, {"share", 0.5}, {"mass_kg", 0.1}, {"x_m", 0.0},
-                      {"y_m", 0.0},       {"z_m", 0.0},   {"from_s", 0.0}};
+std::string damage_json(const std::string& kind, const std::string& leg, const std::string& joint = "",
+                        double from_s = 0.0) {
+  const io::Json part{{"kind", kind},     {"leg", leg},   {"joint", joint},  {"body", ""},
+                      {"angle_rad", 0.0}, {"share", 0.5}, {"mass_kg", 0.1},  {"x_m", 0.0},
+                      {"y_m", 0.0},       {"z_m", 0.0},   {"from_s", from_s}};
   return io::Json{{"parts", {part}}}.dump();
 }
 
@@ -122,6 +123,25 @@ TEST(Session, GoesOnWhereItIsWhenGroundOrBodyChange) {
   EXPECT_NEAR(value(session, "com.x"), x_m, 0.05);  // a leg less has moved the centre of mass
   EXPECT_EQ(value(session, "step"), 300.0);
   EXPECT_EQ(session.step(10), 10);
+}
+
+TEST(Session, ALegThatIsLostStaysLostWhateverIsDoneAndOneThatWillBeIsLostOnTime) {
+  Session session(tests::champion_text());
+  session.step(50);
+  session.set_damage(damage_json("missing", "rear_left", "", 1.0));
+  const auto is_there = [&] { return value(session, "angle.rear_left_hip") != 0.0; };
+  session.step(30);
+  session.lift(0.01);
+  session.step(20);
+  EXPECT_TRUE(is_there());
+  session.step(1);
+  EXPECT_FALSE(is_there());
+  session.lift(0.01);
+  session.step(1);
+  EXPECT_FALSE(is_there());
+  session.set_ground(ground_json(session, "rough"));
+  session.step(20);
+  EXPECT_FALSE(is_there());
 }
 
 TEST(Session, OnNewGroundItIsLiftedOutOfIt) {

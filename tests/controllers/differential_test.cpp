@@ -117,6 +117,19 @@ TEST(Differential, SwingsTheInnerLegsByOneMinusGainTimesTurnAboutTheStartPose) {
   }
 }
 
+TEST(Differential, BackwardsSwingsTheOtherLegsLessForTheSameTurn) {
+  Walkers plain({}), steered(at_once);
+  steered.tell(0, -0.4f, 0.25f);  // to the left: the right legs, 1 and 3, by a half, and all backwards
+  for (int tick = 0; tick < 300; ++tick) {
+    plain.tick();
+    steered.tick();
+    for (int leg = 0; leg < 4; ++leg)
+      EXPECT_NEAR(steered.target_rad(leg, hip_fb),
+                  (leg % 2 == 0 ? -1.0f : -0.5f) * plain.target_rad(leg, hip_fb), 1e-6)
+          << tick;
+  }
+}
+
 TEST(Differential, OfGainTimesTurnOneStopsTheInnerSideAndOfTwoItSwingsBackwards) {
   Walkers plain({}), stops(at_once), backs(at_once), more(at_once);
   stops.tell(0, 0.4f, -0.5f);

@@ -173,6 +173,20 @@ TEST(Switching, StandsInTheStartPoseWhileAStopIsCommandedAndThenBeginsAsATrialDo
   }
 }
 
+TEST(Switching, ToldToStandAtFirstItStandsFromTheFirstTickAlsoWhereTargetsAreSmoothed) {
+  SupgSettings smoothed;
+  smoothed.seam.filter_s = 0.2;
+  Walker walker(gaits, smoothed);
+  walker.tell(0.0f, 0.0f);
+  for (int tick = 0; tick < 5; ++tick) {
+    walker.tick();
+    for (int joint = 0; joint < joints; ++joint)
+      ASSERT_EQ(walker.target_rad(joint),
+                held_target_rad(walker.robot().joints[static_cast<std::size_t>(joint)]))
+          << tick;
+  }
+}
+
 TEST(Switching, AHeadingErrorCountsAsTurnTimesItsGain) {
   Walker without(gaits), with(gaits, {}, 2.0);
   for (Walker* const walker : {&without, &with}) {

@@ -13,6 +13,7 @@
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/record/generations_csv.hpp"
+#include "amble/score/behaviour.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
@@ -85,6 +86,16 @@ TEST(EvaluatedGeneration, OfFinalistsCountsAllTheirTrialsAndOfOthersNoMoreThanTh
   EXPECT_TRUE(has_cut) << "luck was cut off somewhere";
   EXPECT_EQ(after.result.trajectories.size(), before.result.trajectories.size());
   EXPECT_GT(after.result.steps, before.result.steps);
+}
+
+TEST(EvaluatedGeneration, OfAFinalistWhoseFurtherTrialDivergedTellsTheSearchThatItIsNotViable) {
+  EvaluatedGeneration generation{
+      .result = {}, .objectives = {0.5, 0.2}, .finalists = {0, 1}, .diverged = {1}};
+  generation.result.episodes = 1;
+  generation.result.trajectories.resize(2);
+  const auto told_of = experiment::told(generation, *score::make_behaviour("", {}));
+  EXPECT_TRUE(told_of.evaluations[0].viable);
+  EXPECT_FALSE(told_of.evaluations[1].viable);
 }
 
 TEST(EvaluatedGeneration, IsTheSameForAnyNumberOfWorkers) {

@@ -76,6 +76,19 @@ std::vector<std::string> idle_of(const std::string& config, const std::vector<st
   return idle_parts(Problem::make(read, load_robot_file(read.robot)));
 }
 
+TEST(IdleParts, AreScalesOfSensorsThatTheControllerTakesAsTheyAre) {
+  const auto idle = [](const std::string& kind, const std::string& of, std::vector<std::string> more = {}) {
+    more.push_back("controller.sensing.sensors=[{of='" + of + "', scale=0.5}]");
+    return !idle_of("authors/" + kind + "-objective.toml", more).empty();
+  };
+  const std::vector<std::string> by_hand{"command.kind=random", "controller.differential.turn_gain=1"};
+  EXPECT_TRUE(idle("supg", "touch"));
+  EXPECT_TRUE(idle("supg", "command_turn", by_hand));
+  EXPECT_FALSE(idle("supg", "touch",
+                    {"controller.supg.modulation.sensors=['touch']", "controller.supg.modulation.rate=1"}));
+  EXPECT_FALSE(idle("sine", "touch"));
+}
+
 TEST(IdleParts, AreSensorsThatTheControllerDoesNotRead) {
   const auto unread = [](const std::string& kind, const std::string& of, std::vector<std::string> more = {}) {
     more.push_back("controller.sensing.sensors=[{of='" + of + "', delay_s=0.1}]");

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "amble/core/random.hpp"
+#include "amble/robot/sensors.hpp"
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -39,6 +40,27 @@ TEST_P(PlaceAt, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
       ASSERT_NEAR(bench.angle(j), pose.joint_angle_rad[static_cast<std::size_t>(j)], 1e-6)
           << which << ' ' << j;
     for (int leg = 0; leg < 4; ++leg) EXPECT_FALSE(bench.touches(leg));
+  }
+}
+
+TEST_P(PlaceAt, SensesAttitudeFromTheStartPoseWhicheverWayTheRootsAxesPointInIt) {
+  robot::RobotSpec robot = quadruped();
+  const Quat own = axis_angle({0.48, -0.6, 0.64}, 1.3);
+  for (const bool on_a_slope : {false, true}) {
+    robot.bodies[0].rotation = own;
+    if (on_a_slope) robot.gravity_m_s2 = {-1.2, 0.7, -9.7};
+    Bench bench(GetParam(), robot);
+    const Quat level = robot::horizontal_frame(robot.gravity_m_s2);
+    for (std::uint32_t which = 0; which < 10; ++which) {
+      StartPose pose = some_pose(robot, which);
+      const auto attitude = roll_pitch_yaw(conjugate(level) * pose.root.rotation);
+      pose.root.rotation = pose.root.rotation * own;
+      bench.engine->place_at(0, pose);
+      const LaneArray& sensed_rad = bench.engine->sensors().attitude_rad;
+      EXPECT_NEAR(static_cast<double>(sensed_rad.at(0, 0)), attitude.roll_rad, 1e-6);
+      EXPECT_NEAR(static_cast<double>(sensed_rad.at(1, 0)), attitude.pitch_rad, 1e-6);
+      EXPECT_NEAR(static_cast<double>(sensed_rad.at(2, 0)), attitude.yaw_rad, 1e-6);
+    }
   }
 }
 

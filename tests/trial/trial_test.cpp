@@ -145,7 +145,7 @@ TEST(Runner, CountsTheStepsInWhichEachFootIsDownIfAsked) {
   }
 }
 
-TEST(Runner, NotesWhichWayTheRobotFacesAtTheStart) {
+TEST(Runner, NotesWhichWayTheRobotFacesAtTheStartAndThatItIsUpright) {
   FakeEngine engine(1);
   FakeBatch batch(1);
   constexpr double yaw_rad = 0.5;
@@ -159,11 +159,13 @@ TEST(Runner, NotesWhichWayTheRobotFacesAtTheStart) {
     // A robot whose root has this rotation in its own start pose faces +x then.
     Protocol facing = protocol(3);
     facing.start_rotation = own;
+    facing.measures.uprightness = true;
     turned.start->root.rotation = yaw * own;
     OneTask task(std::make_shared<FakeParameters>(0.25f), nullptr, &turned);
     Runner(engine, batch, facing).run(task, never);
     EXPECT_NEAR(task.result()->forward_x, std::cos(yaw_rad), 1e-12);
     EXPECT_NEAR(task.result()->forward_y, std::sin(yaw_rad), 1e-12);
+    EXPECT_NEAR(task.result()->upright_steps, 3.0, 1e-12);
   }
 }
 

@@ -5,9 +5,9 @@ const ROW = 34, LAYER = 84, PAD = 16, LETTER = 7.6, BESIDE = 24; // px; a letter
 // The curves of the functions, within −8 … 8 px.
 const GLYPHS = {
   bipolar_sigmoid: "M-8 6C-3 6-2 3 0 0C2-3 3-6 8-6", gaussian: "M-8 6C-3 6-3-6 0-6C3-6 3 6 8 6", sine: "M-8 0C-5-9-3-9 0 0C3 9 5 9 8 0",
-  linear: "M-7-6L0 6L7-6",
+  identity: "M-7 6L7-6", absolute: "M-7-6L0 6L7-6",
 };
-const NAMES = { bipolar_sigmoid: "sigmoid", gaussian: "Gaussian", sine: "sine", linear: "|x|" };
+const NAMES = { bipolar_sigmoid: "sigmoid", gaussian: "Gaussian", sine: "sine", identity: "x", absolute: "|x|" };
 
 /** How far each node is from the inputs by links that lead on; what only cycles reach is in the middle. */
 function layersOf({ nodes, links }) {
@@ -24,22 +24,23 @@ function layersOf({ nodes, links }) {
 
 const textWidth = (names) => BESIDE + LETTER * Math.max(4, ...names.map((name) => name.length));
 
-/** @returns {SVGElement} `names`: {inputs, outputs} */
-export function drawCppn(genome, names) {
+/** @returns {SVGElement} Its names, and what the function "linear" is, as Live.describe() has them. */
+export function drawCppn(genome, { cppn_inputs: inputs, cppn_outputs: outputs, cppn_linear: linear }) {
   const { nodes, links } = genome, { layer, last } = layersOf(genome);
   const columns = Array.from({ length: last + 1 }, (_, l) => nodes.filter(({ id }) => layer.get(id) === l));
-  const tall = Math.max(...columns.map((column) => column.length)) * ROW + 2 * PAD, left = textWidth(["bias", ...names.inputs]);
-  const wide = left + last * LAYER + textWidth(names.outputs);
+  const tall = Math.max(...columns.map((column) => column.length)) * ROW + 2 * PAD, left = textWidth(["bias", ...inputs]);
+  const wide = left + last * LAYER + textWidth(outputs);
   const place = new Map();
   columns.forEach((column, l) => column.forEach(({ id }, i) => place.set(id, [left + l * LAYER, tall / 2 + (i - (column.length - 1) / 2) * ROW])));
   const enabled = links.filter((link) => link.enabled), hidden = nodes.filter(({ kind }) => kind === "hidden").length;
   const picture = svgElement("svg", { class: "cppn", viewBox: `0 0 ${wide} ${tall}`, width: wide, height: tall, role: "img",
-    "aria-label": `The network: ${names.inputs.length} inputs, ${hidden} hidden nodes, ${names.outputs.length} outputs, ${enabled.length} links` });
+    "aria-label": `The network: ${inputs.length} inputs, ${hidden} hidden nodes, ${outputs.length} outputs, ${enabled.length} links` });
   for (const link of enabled) picture.append(drawLink(link, place));
   let input = 0, output = 0;
   for (const node of nodes) {
-    const name = node.kind === "bias" ? "bias" : node.kind === "input" ? names.inputs[input++] : node.kind === "output" ? names.outputs[output++] : "";
-    picture.append(drawNode(node, place.get(node.id), (name ?? "").replaceAll("_", " ")));
+    const name = node.kind === "bias" ? "bias" : node.kind === "input" ? inputs[input++] : node.kind === "output" ? outputs[output++] : "";
+    const activation = node.activation === "linear" ? linear : node.activation;
+    picture.append(drawNode({ ...node, activation }, place.get(node.id), (name ?? "").replaceAll("_", " ")));
   }
   return picture;
 }

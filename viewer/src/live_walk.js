@@ -88,8 +88,8 @@ export class LiveWalk extends Walk {
   /** The walk of another champion of the same robot, from time 0; `genome`: its network, where the page draws it. */
   become(live, genome = null) {
     this.live = live;
-    const { controller, cppn_inputs: inputs, cppn_outputs: outputs } = live.describe();
-    const cppn_svg = genome && drawCppn(genome, { inputs, outputs }).outerHTML;
+    const description = live.describe(), { controller } = description;
+    const cppn_svg = genome && drawCppn(genome, description).outerHTML;
     Object.assign(this, { controller, supg: controller.patterns_rad ? controller : null, cppn_svg });
     this.begin();
   }

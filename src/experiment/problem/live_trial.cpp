@@ -6,7 +6,6 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
-#include "amble/damage/stages.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
@@ -61,13 +60,12 @@ void LiveTrial::apply(const Input& input) {
   if (input.lift_m && !(*input.lift_m > 0.0 && *input.lift_m <= most_lift_m))
     fail(ExitCode::bad_input, "lift_m = {}: expected more than 0 and at most {} m", *input.lift_m,
          most_lift_m);
-  if (input.ground || input.damage) {
+  if (input.ground || input.damage || input.lift_m) {
     Problem next = problem_;
     if (input.ground) next.set_ground(*input.ground);
     if (input.damage) next.set_damage(*input.damage);
-    move_to(std::move(next));
+    move_to(std::move(next), input.lift_m.value_or(0.0));
   }
-  if (input.lift_m) lift(*input.lift_m);
   if (input.push_n_s) engine_->push(lane, *input.push_n_s);
   if (input.command) runner_->tell(lane, *input.command);
 }
@@ -80,28 +78,24 @@ trial::Command LiveTrial::told() const {
   return runner_->told(lane).value_or(trial::Command{});
 }
 
-void LiveTrial::move_to(Problem next) {
-  auto engine = next.make_engine();
+void LiveTrial::move_to(Problem next, double lift_m) {
+  // The engine counts from its own first step.
+  Problem from_now_on = next;
+  for (damage::Part& part : from_now_on.damage.parts)
+    part.from_s = std::max(0.0, part.from_s - steps_ * next.trial.timestep_s);
+  auto engine = from_now_on.make_engine();
   auto ground = next.make_ground(next.ground_key);
   if (ground) engine->set_ground(ground);
   physics::MovingPose motion = engine_->motion(lane);
   const double sunk_m = std::min(0.0, clearance_m(problem_.robot, ground_.get(), motion.pose)) -
                         clearance_m(next.robot, ground.get(), motion.pose);
   if (sunk_m > 0.0) motion.pose.root.position_m.z += rounded_up(sunk_m);
+  motion.pose.root.position_m.z += lift_m;
   engine->place_moving(lane, motion);
-
-  std::vector<int> numb;
-  for (const damage::NumbFoot& foot : damage::numb_feet(next.robot, next.damage)) numb.push_back(foot.leg);
-  runner_->move_to(*engine, numb);
+  runner_->move_to(*engine, from_now_on.protocol({}).numb);
   engine_ = std::move(engine);
   ground_ = std::move(ground);
   problem_ = std::move(next);
-}
-
-void LiveTrial::lift(double height_m) {
-  physics::MovingPose motion = engine_->motion(lane);
-  motion.pose.root.position_m.z += height_m;
-  engine_->place_moving(lane, motion);
 }
 
 bool LiveTrial::step() {

@@ -30,7 +30,8 @@ struct Input {
 /// inputs and the steps before which they came, and on nothing else.
 ///
 /// When the ground or the damage changes, the robot goes on with its pose and velocities (as in
-/// docs/DAMAGE.md), and is lifted where it would be in the new ground. The controller does not know of it.
+/// docs/DAMAGE.md), and is lifted where it would be in the new ground. Damages begin when they did, counted
+/// from the trial's beginning. The controller does not know of it.
 class LiveTrial {
  public:
   /// Throws UserError if the engine of `problem` cannot simulate its robot.
@@ -60,8 +61,7 @@ class LiveTrial {
   static constexpr int lane = 0;  ///< of the robot in engine() and controllers()
 
  private:
-  void move_to(Problem next);
-  void lift(double height_m);
+  void move_to(Problem next, double lift_m);
 
   Problem problem_;
   std::shared_ptr<const ground::Ground> ground_;

@@ -222,6 +222,12 @@ Model::Model(const RobotSpec& robot)
     level[1] = narrow(rotate(rotation, {0.0, 1.0, 0.0}));
     level[2] = narrow(rotate(rotation, {0.0, 0.0, 1.0}));
   }
+  if (const Quat own = robot.bodies[0].rotation; own != Quat()) {
+    turned = true;
+    start[0] = narrow(rotate(conjugate(own), {1.0, 0.0, 0.0}));
+    start[1] = narrow(rotate(conjugate(own), {0.0, 1.0, 0.0}));
+    start[2] = narrow(rotate(conjugate(own), {0.0, 0.0, 1.0}));
+  }
   Builder(robot, *this).build();
   for (const Chain& chain : chains) {
     longest_chain = std::max(longest_chain, chain.count);

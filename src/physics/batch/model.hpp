@@ -94,6 +94,10 @@ struct Model {
   /// measured in it.
   bool tilted = false;
   Float3 level[3];
+  /// Where the root's axes are not the world's in the start pose: those of the world in the root's frame;
+  /// attitude is measured from that pose.
+  bool turned = false;
+  Float3 start[3];
   float friction = 0.0f;  ///< may be infinite
   float erp = 0.0f, cfm_s_per_kg = 0.0f;
   /// Over-relaxation ω and number of sweeps of the constraint solver, chosen by the friction (docs/BATCH.md,

@@ -300,7 +300,12 @@ HWY_NOINLINE void read_sensors(const Pass pass) {
   // From the entries of R = R_z(yaw) R_y(pitch) R_x(roll): R31 = −sin pitch, R32 / R33 = tan roll,
   // R21 / R11 = tan yaw.
   Columns world = pass.world();
-  if (const Model& model = pass.model(); model.tilted)
+  const Model& model = pass.model();
+  if (model.turned) {
+    const Columns start = {set(model.start[0]), set(model.start[1]), set(model.start[2])};
+    world = {transposed(start, world.x), transposed(start, world.y), transposed(start, world.z)};
+  }
+  if (model.tilted)
     world = {world * set(model.level[0]), world * set(model.level[1]), world * set(model.level[2])};
   const V one = set(1.0f), sine = min(max(hn::Neg(world.z.x), hn::Neg(one)), one);
   put(arc_tangent(world.z.y, world.z.z), sensors.attitude_rad, 0);

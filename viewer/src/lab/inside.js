@@ -23,9 +23,8 @@ export class Inside {
 
   /** Another walker; `text`: its champion's file. */
   begin(walk, text) {
-    const { cppn_inputs: inputs, cppn_outputs: outputs } = walk.live.describe();
     this.section.hidden = false;
-    this.cppn.replaceChildren(drawCppn(JSON.parse(text).genome, { inputs, outputs }));
+    this.cppn.replaceChildren(drawCppn(JSON.parse(text).genome, walk.live.describe()));
     this.patterns = walk.supg ? new Patterns(walk) : null;
     const note = this.patterns ? SUPG_NOTE : WITHOUT_NOTES[walk.controller.kind] ?? "";
     this.below.replaceChildren(element("p", { class: "lead" }, note), ...(this.patterns ? [this.patterns.element] : []));
