@@ -9,6 +9,7 @@
 
 #include "amble/experiment/adapt.hpp"
 #include "amble/experiment/corrected_map.hpp"
+#include "amble/experiment/given_damage.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/io/file.hpp"
 #include "amble/presentation/adaptation_page.hpp"

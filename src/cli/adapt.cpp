@@ -1,4 +1,5 @@
 #include "amble/experiment/adapt.hpp"
+#include "amble/experiment/given_damage.hpp"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,7 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
 ExitCode run_adapt(AdaptOptions options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
   options.settings.damage = experiment::damage_of(options.damage);
+  experiment::check_begins(options.settings.damage, repertoire.problem.trial.duration_s);
   const bool is_page = options.out && options.out->extension() == ".html";
   if (options.out && !is_page && options.out->extension() != ".json")
     fail(ExitCode::bad_input, "--out {}: expected FILE.html or FILE.json", options.out->string());

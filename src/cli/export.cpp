@@ -35,7 +35,8 @@ void check_options(const ExportOptions& options) {
 }
 
 std::string mjcf_of(const experiment::Champion& champion) {
-  return morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
+  return morphology::written_mjcf_start +
+         morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
 }
 
 ExitCode run_export(const ExportOptions& options) {
@@ -53,7 +54,7 @@ ExitCode run_export(const ExportOptions& options) {
   }
   const bool json = options.format == "json";
   if (options.out)
-    io::check_output(*options.out, json ? exporting::export_json_start : "<mujoco",
+    io::check_output(*options.out, json ? exporting::export_json_start : morphology::written_mjcf_start,
                      json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (stop_signal()) return ExitCode::interrupted;
@@ -90,7 +91,7 @@ void add_export(CLI::App& app, Action& action) {
                    "full_speed_m_s = 0.28\" (docs/STEERING.md)")
       ->type_name("GAINS");
   add_examples(*command, {{"amble export runs/1 --format c -o walker.c", "for a microcontroller"},
-                          {"amble export runs/1 --format mjcf -o robot.xml", ""}});
+                          {"amble export runs/1 --format mjcf -o simulated.xml", ""}});
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }
 

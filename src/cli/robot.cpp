@@ -53,10 +53,12 @@ void add_robot(CLI::App& app, Action& action) {
     if (options->file.empty() && options->model.empty()) throw CLI::RequiredError("FILE or --init MODEL");
     action = [options] {
       if (!options->model.empty()) return init_robot(options->model, options->folder);
-      if (!options->mjcf.empty()) io::check_output(options->mjcf, "<mujoco", "an MJCF model");
+      if (!options->mjcf.empty())
+        io::check_output(options->mjcf, morphology::written_mjcf_start, "an MJCF model");
       morphology::ReadingNotes notes;
       const auto robot = experiment::load_robot_file(options->file, &notes);
-      if (!options->mjcf.empty()) io::write_output(options->mjcf, morphology::write_mjcf(robot).text);
+      if (!options->mjcf.empty())
+        io::write_output(options->mjcf, morphology::written_mjcf_start + morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
       if (const auto line = experiment::solver_line(robot)) fmt::print("{}", *line);
       if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());

@@ -20,9 +20,12 @@
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
 #include "amble/report/undecidable.hpp"
+#include "amble/study/doubts.hpp"
 #include "amble/study/plan.hpp"
 #include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
@@ -55,6 +58,7 @@ void take_old_workers(StudyOptions& options) {
 /// Before the runs, which would not help.
 void warn_of_claims(const study::Plan& plan) {
   for (const std::string& line : report::undecidable_claims(plan.study)) print_message(line + "\n");
+  for (const std::string& line : study::doubts_of(plan)) print_message("note: " + line + "\n");
 }
 
 /// Settings of a condition's own that it does not use: it is not the ablation that it is meant to be.
@@ -239,6 +243,9 @@ void note_retest(const StudyOptions& options, const std::vector<study::RunStatus
 
 ExitCode run_study(const StudyOptions& options) {
   if (options.out.empty()) fail(ExitCode::bad_input, "--out: expected the name of a folder");
+  if (experiment::is_run_folder(options.out))
+    fail(ExitCode::bad_input, "--out {}: is the folder of a run; name another one for the study",
+         io::printable(options.out.string()));
   std::signal(SIGPIPE, SIG_IGN);
   auto server = server_for(options.watch);
   const auto shard = study::Shard::parse(options.shard);

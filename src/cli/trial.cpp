@@ -15,8 +15,8 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/damage/text.hpp"
 #include "amble/experiment/gait_observer.hpp"
+#include "amble/experiment/given_damage.hpp"
 #include "amble/experiment/idle_settings.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/experiment/problem/live_inputs.hpp"
@@ -84,14 +84,19 @@ void change_as_in(const std::filesystem::path& path, Change change) {
   }
 }
 
-/// `spec`: a config file, or damages in one line (damage::parse).
-void damage_as_in(const std::string& spec, experiment::Champion& champion) {
+/// `spec`: as experiment::damage_of() takes it.
+void damage_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
   if (spec.empty()) fail(ExitCode::bad_input, "--damage: expected a config file, or KIND:NAME as missing:FL");
+  const auto give = [&] {
+    const damage::Settings damage = experiment::damage_of(spec);
+    experiment::check_begins(damage, seconds.value_or(champion.problem.trial.duration_s));
+    champion.problem.set_damage(damage);
+  };
   std::error_code error;
-  if (spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error))
-    champion.problem.set_damage(damage::parse(spec));
+  if (std::filesystem::exists(spec, error))
+    change_as_in(spec, [&](const experiment::Config&) { give(); });
   else
-    change_as_in(spec, [&](const experiment::Config& config) { champion.problem.set_damage(config.damage); });
+    give();
 }
 
 /// The [command] of a config. Throws UserError with its place if it says nothing.
@@ -198,7 +203,7 @@ ExitCode run_trial(const TrialOptions& options) {
   if (options.ground)
     change_as_in(*options.ground,
                  [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
-  if (options.damage) damage_as_in(*options.damage, champion);
+  if (options.damage) damage_as_in(*options.damage, options.seconds, champion);
   tell(options, champion);
   if (options.record) io::check_output(*options.record, record::recording_magic, "a recording");
   std::optional<io::ScratchFile> scratch;
@@ -255,7 +260,7 @@ void add_surroundings(CLI::App& command, TrialOptions& options) {
       .add_option("--damage", options.damage,
                   "With the robot damaged as in the [damage] of this config, or as "
                   "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
-                  "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)")
+                  "missing:FL,weak:FR_knee=0.3@5; none: intact (default: as in its evolution)")
       ->type_name("DAMAGE|FILE");
   command
       .add_option("--command", options.command,

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "amble/adaptation/trial_and_error.hpp"
 #include "amble/core/error.hpp"
-#include "amble/damage/text.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/io/json_file.hpp"
@@ -138,18 +136,6 @@ std::string adaptation_json(const Adaptation& adaptation, const Repertoire& repe
                           {"cell", adaptation.cell},
                           {"done", adaptation.done},
                           {"trials", std::move(steps)}});
-}
-
-damage::Settings damage_of(const std::string& spec) {
-  std::error_code error;
-  if (std::filesystem::exists(spec, error)) return load_config(spec, {}).damage;
-  if (spec.find(':') == std::string::npos)
-    fail(
-        ExitCode::bad_input,
-        "damage \"{}\": no such file; expected damages such as missing:FL,weak:FR_knee=0.3, or the path of a "
-        "config with [damage]",
-        io::printable(spec));
-  return damage::parse(spec);
 }
 
 }  // namespace amble::experiment

@@ -53,7 +53,4 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
 std::string adaptation_json(const Adaptation& adaptation, const Repertoire& repertoire,
                             const AdaptSettings& settings, const std::string& damage);
 
-/// `spec`: damages in one line, such as "missing:FL", or a config file with [damage]. Throws UserError.
-damage::Settings damage_of(const std::string& spec);
-
 }  // namespace amble::experiment

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "amble/controllers/sensing.hpp"
@@ -62,6 +64,87 @@ bool grows_nothing(const Config& config) {
   return config.search.kind == "cma-es";
 }
 
+bool is_map_search(const Config& config) {
+  return config.search.kind == "map-elites";
+}
+
+/// Whether terms, limits or a map's descriptors name one of these quantities.
+bool names_any(const Config& config, std::initializer_list<std::string_view> quantities) {
+  const auto is_one = [&](const std::string& name) {
+    return std::ranges::find(quantities, name) != quantities.end();
+  };
+  return std::ranges::any_of(config.score.terms, is_one, &score::Term::quantity) ||
+         std::ranges::any_of(config.score.limits, is_one, &score::Limit::quantity) ||
+         (is_map_search(config) && std::ranges::any_of(config.search.map_elites.descriptors, is_one,
+                                                       &search::DescriptorSettings::quantity));
+}
+
+bool is_grid(const Config& config) {
+  return is_map_search(config) && config.search.map_elites.archive == search::Archive::grid;
+}
+
+bool is_plane(const Config& config) {
+  return !config.ground.has_field();
+}
+
+/// Of tables that every kind of controller and search has.
+constexpr std::array<IdleRule, 23> common_rules = {
+    {{"population.size", "", is_map_search,
+      "search.kind is \"map-elites\", whose rounds have search.map_elites.batch"},
+     {"search.map_elites.challenger_share", "",
+      [](const Config& config) { return is_map_search(config) && config.search.map_elites.trials == 1; },
+      "search.map_elites.trials is 1"},
+     {"search.map_elites.pool.", "",
+      [](const Config& config) {
+        return is_map_search(config) && config.search.map_elites.select != search::Selection::dominated;
+      },
+      "search.map_elites.select is not \"dominated\""},
+     {"search.map_elites.line.", "",
+      [](const Config& config) {
+        return is_map_search(config) && config.search.map_elites.variation != search::Variation::line;
+      },
+      "search.map_elites.variation is not \"line\""},
+     {"search.map_elites.cma.", "",
+      [](const Config& config) {
+        return is_map_search(config) && config.search.map_elites.variation != search::Variation::cma;
+      },
+      "search.map_elites.variation is not \"cma\""},
+     {"search.map_elites.cells", "", is_grid, "search.map_elites.archive is \"grid\""},
+     {"search.map_elites.centroid_", "", is_grid, "search.map_elites.archive is \"grid\""},
+     {"score.heading_deg", "",
+      [](const Config& config) {
+        return !names_any(config, {"heading", "speed_kept"});
+      },
+      "nothing asks for the quantities heading or speed_kept"},
+     {"score.speed_m_s", "", [](const Config& config) { return !names_any(config, {"speed_kept"}); },
+      "nothing asks for the quantity speed_kept"},
+     {"score.breach_factor", "", [](const Config& config) { return config.score.limits.empty(); },
+      "score.limits is empty"},
+     {"noise.score", "",
+      [](const Config& config) {
+        return config.noise.episodes == 1 && config.champion.episodes == 0 &&
+               config.evaluation.finalists == 0.0;
+      },
+      "noise.episodes is 1"},
+     {"noise.push_interval_s", "", [](const Config& config) { return config.noise.push_m_s == 0.0; },
+      "noise.push_m_s is 0"},
+     {"champion.score", "", [](const Config& config) { return config.champion.episodes == 0; },
+      "champion.episodes is 0"},
+     {"evaluation.draw", "", [](const Config& config) { return !config.disturbed() && is_plane(config); },
+      "there is no noise, and no uneven ground"},
+     {"evaluation.finalist_episodes", "",
+      [](const Config& config) { return config.evaluation.finalists == 0.0; }, "evaluation.finalists is 0"},
+     {"ground.height_m", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.length_m", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.cell_m", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.start_radius_m", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.seed", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.vary", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.grow_generations", "", is_plane, "ground.kind is \"plane\""},
+     {"cppn.passes", "", [](const Config& config) { return !config.cppn.recurrent; },
+      "cppn.recurrent is false"}}};
+
+/// Of controllers and searches.
 constexpr std::array<IdleRule, 23> idle_rules = {
     {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
@@ -152,9 +235,10 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
          {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
           idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
       if (reason) idle.push_back(*reason);
-    for (const IdleRule& rule : idle_rules)
-      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
-        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
+    for (const auto rules : {std::span<const IdleRule>(common_rules), std::span<const IdleRule>(idle_rules)})
+      for (const IdleRule& rule : rules)
+        if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
+          idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
   }
   return idle;
 }
@@ -162,6 +246,11 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
 std::vector<std::string> idle_parts(const Problem& problem) {
   std::vector<std::string> idle;
   find_unread_sensors(problem, idle);
+  for (std::size_t i = 0; i < problem.damage.parts.size(); ++i)
+    if (const double from_s = problem.damage.parts[i].from_s; from_s >= problem.trial.duration_s)
+      idle.push_back(
+          fmt::format("damage.parts[{}] has no effect: it begins at {:g} s, and trials are {:g} s long", i,
+                      from_s, problem.trial.duration_s));
   const controllers::ModulationSettings& modulation = problem.controller.supg.modulation;
   if (problem.controller.kind == "supg" && !modulation.sensors.empty() && modulation.rate == 0.0 &&
       modulation.shape == 0.0)

@@ -212,11 +212,27 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
 }
 
+namespace {
+
+/// Formats that others write as well, by how they begin, and what amble's own files have soon after.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> own_marks{
+    {{"<!DOCTYPE html>", "content=\"default-src 'none';"},
+     {"<svg", " role=\"img\" aria-label=\""},
+     {"#!/bin/bash", "$SLURM_ARRAY_TASK_ID/"}}};
+constexpr std::size_t mark_within = 4096;
+
+}  // namespace
+
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
   if (!std::filesystem::is_regular_file(path)) return;
-  const std::string found = InputFile(path).read(beginning.size());
-  if (!found.empty() && found != beginning)
-    fail(ExitCode::bad_input, "{} exists and is not {}: name another file", path.string(), what);
+  const std::string found = InputFile(path).read(mark_within);
+  if (found.empty()) return;
+  const auto* const mark =
+      std::ranges::find(own_marks, beginning, &std::pair<std::string_view, std::string_view>::first);
+  if (!found.starts_with(beginning) ||
+      (mark != own_marks.end() && found.find(mark->second) == std::string::npos))
+    fail(ExitCode::bad_input, "{} exists and is not {} that amble wrote: name another file", path.string(),
+         what);
 }
 
 void check_output(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {

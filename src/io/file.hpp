@@ -81,8 +81,8 @@ void sync_entry(const std::filesystem::path& path);
 void make_folder(const std::filesystem::path& folder);
 
 /// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
-/// `beginning`: it is not of the kind that would be written (`what`, e.g. "a recording"), and must not be
-/// replaced.
+/// `beginning`, or, where others write such files, too, that do not look like amble's own: it is not of the
+/// kind that would be written (`what`, e.g. "a recording"), and must not be replaced.
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
 
 /// Before an output is computed: refuse_to_replace(), and throws UserError(ExitCode::io) "cannot write PATH:

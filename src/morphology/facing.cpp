@@ -31,9 +31,11 @@ bool any_of(const std::vector<std::string>& words, std::initializer_list<const c
   });
 }
 
+/// Also with a number behind, as in "l1".
 bool is_one_of(const std::vector<std::string>& words, std::initializer_list<const char*> codes) {
   return std::ranges::any_of(words, [&](const std::string& word) {
-    return std::ranges::any_of(codes, [&](const char* code) { return word == code; });
+    const std::size_t letters = word.find_last_not_of("0123456789") + 1;
+    return std::ranges::any_of(codes, [&](const char* code) { return word.substr(0, letters) == code; });
   });
 }
 

@@ -84,10 +84,39 @@ FootFriction foot_friction(const ModelFile& file, const ModelParts& parts, const
                                                 of_foot ? "floor" : "first foot", of_foot ? of_floor : own)};
 }
 
+std::vector<std::string> bodies_beyond_foot(const ModelParts& parts, const LegGuess& leg) {
+  const int foot_body = parts.geoms[to_index(leg.foot_geom)].body;
+  std::vector<std::string> beyond;
+  for (const int j : leg.joints)
+    for (int body = parts.bodies[to_index(parts.joints[to_index(j)].body)].parent; body >= 0;
+         body = parts.bodies[to_index(body)].parent)
+      if (body == foot_body) {
+        beyond.push_back(parts.bodies[to_index(parts.joints[to_index(j)].body)].name);
+        break;
+      }
+  return beyond;
+}
+
+namespace {
+
+std::vector<std::string> doubts_of_shapeless(const ModelParts& parts, const LegsGuess& legs) {
+  std::vector<std::string> shapeless;
+  for (const LegGuess& leg : legs.legs)
+    for (std::string& body : bodies_beyond_foot(parts, leg)) shapeless.push_back(std::move(body));
+  if (shapeless.empty()) return {};
+  return {
+      fmt::format("outer parts of legs have no shape that collides, and pass through the ground: {}; their "
+                  "legs stand on what comes before: give them one",
+                  io::first_few(shapeless))};
+}
+
+}  // namespace
+
 std::vector<std::string> doubts_of_feet(const ModelFile& file, const ModelParts& parts,
                                         const LegsGuess& legs) {
   const mjModel& model = *file.model;
-  if (!has_floor(model)) return {};
+  std::vector<std::string> doubts = doubts_of_shapeless(parts, legs);
+  if (!has_floor(model)) return doubts;
   std::vector<std::string> through, smooth;
   for (const LegGuess& leg : legs.legs) {
     bool touches = false, rubs = false;
@@ -102,7 +131,6 @@ std::vector<std::string> doubts_of_feet(const ModelFile& file, const ModelParts&
     else if (!rubs)
       smooth.push_back(leg.name);
   }
-  std::vector<std::string> doubts;
   if (!through.empty())
     doubts.push_back(
         fmt::format("in MuJoCo the feet of these legs go through the model's floor, by contype, "

@@ -17,8 +17,11 @@ struct FootFriction {
 };
 FootFriction foot_friction(const ModelFile& file, const ModelParts& parts, const LegsGuess& legs);
 
+/// The bodies of a leg's joints that are farther out than its foot: they have no shape that collides.
+std::vector<std::string> bodies_beyond_foot(const ModelParts& parts, const LegGuess& leg);
+
 /// Feet that stand on the model's own floor otherwise than on amble's: they go through it, or slide without
-/// friction. A line each, nothing where the model has no floor.
+/// friction, if it has one; and legs whose last bodies can touch nothing. A line each.
 std::vector<std::string> doubts_of_feet(const ModelFile& file, const ModelParts& parts,
                                         const LegsGuess& legs);
 

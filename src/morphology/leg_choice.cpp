@@ -71,6 +71,7 @@ class LegChooser {
       const robot::Geom& foot = parts_.geoms[to_index(feet_[to_index(l)])];
       if (robot::bottom_m(foot, poses_) <= floor_m + share * height_m) choice.limbs.push_back(l);
     }
+    leave_out_tails(choice);
     choice.why = fmt::format("chains of bodies whose end is at most {:.3g} m above the lowest point",
                              near_ground * height_m);
     add_counterparts(choice);
@@ -97,6 +98,18 @@ class LegChooser {
 
  private:
   int count() const { return static_cast<int>(limbs_.size()); }
+
+  /// A tail may rest on the ground; it is a leg where hardly anything else is.
+  void leave_out_tails(LegChoice& choice) const {
+    std::vector<int> others;
+    for (const int l : choice.limbs)
+      if (!is_tail(l)) others.push_back(l);
+    if (others.size() > 1) choice.limbs = std::move(others);
+  }
+  bool is_tail(int l) const {
+    constexpr std::array tail{"tail"};
+    return named_as(limb_words(parts_, limb(l).joints), tail);
+  }
   const Limb& limb(int l) const { return limbs_[to_index(l)]; }
   bool alike(int a, int b, double ratio) const {
     const double x = limb(a).length_m, y = limb(b).length_m;
@@ -116,7 +129,8 @@ class LegChooser {
     for (int l = 0; l < count(); ++l) {
       const bool is_leg = std::ranges::find(choice.limbs, l) != choice.limbs.end();
       const auto as_leg = [&](int k) { return alike(k, l, alike_length) && as_high(k, l); };
-      if (!is_leg && feet_[to_index(l)] >= 0 && std::ranges::any_of(choice.limbs, as_leg)) like.push_back(l);
+      if (!is_leg && feet_[to_index(l)] >= 0 && !is_tail(l) && std::ranges::any_of(choice.limbs, as_leg))
+        like.push_back(l);
     }
     if (like.empty()) return;
     std::vector<int> all = choice.limbs;

@@ -25,6 +25,10 @@ struct MjcfAdditions {
   std::string sections = {};  ///< behind the world, in lines
 };
 
+/// What files that amble writes begin with, before the text, so that a model of somebody else is not
+/// replaced.
+inline const std::string written_mjcf_start = "<!-- Written by amble. -->\n";
+
 /// Writes bodies, inertias, joints with their ranges, geoms and friction; all numbers read back to the same
 /// bits. Loaded with a TOML side file it is the same robot. MJCF cannot express the servos, the fall height
 /// and the contact's erp and cfm. Infinite friction is written as `grip`.

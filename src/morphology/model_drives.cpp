@@ -151,9 +151,11 @@ class DriveFinder {
     else if (first >= 0 && first == second)
       note(Reading::left_out, "equality constraint {}: both ends are on one rigid body", tie_text(e));
     else
-      note(Reading::left_out,
-           "equality constraint {}of {} and {}: one end is not on the robot, which is free to move",
-           is_named(e) ? tie_text(e) + ", " : "", body_name(a), body_name(b));
+      notes_.add(Reading::left_out,
+                 fmt::format(
+                     "equality constraint {}of {} and {}: one end is not on the robot, which is free to move",
+                     is_named(e) ? tie_text(e) + ", " : "", body_name(a), body_name(b)),
+                 (first >= 0) != (second >= 0));
   }
 
   void read_joint_equality(int e) {

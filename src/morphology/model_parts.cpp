@@ -50,11 +50,29 @@ class PartsExtractor {
              unread_meshes());
     note_feet_that_only_show();
     finish();
-    parts_.gravity_m_s2 = vec3(model_.opt.gravity);
+    parts_.gravity_m_s2 = is_disabled(mjDSBL_GRAVITY) ? Vec3{} : vec3(model_.opt.gravity);
+    doubt_disabled();
     return std::move(parts_);
   }
 
  private:
+  bool is_disabled(int flag) const { return (model_.opt.disableflags & flag) != 0; }
+
+  /// What the model itself goes without, by <option><flag …="disable"/>.
+  void doubt_disabled() {
+    std::vector<std::string> disabled;
+    for (const auto& [flag, name] : {std::pair(mjDSBL_CONTACT, "contact"), std::pair(mjDSBL_LIMIT, "limit"),
+                                     std::pair(mjDSBL_ACTUATION, "actuation")})
+      if (is_disabled(flag)) disabled.emplace_back(name);
+    if (!disabled.empty())
+      parts_.notes.add(
+          Reading::replaced,
+          fmt::format("<option><flag> disables {} in the model: here the robot has contacts, limits "
+                      "and motors",
+                      fmt::join(disabled, ", ")),
+          true);
+  }
+
   template <typename... Args>
   [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) const {
     throw UserError(file_.path.string() + ": " + fmt::format(text, std::forward<Args>(args)...));

@@ -215,8 +215,9 @@ class RobotGuesser {
 
   void write_foot(const LegGuess& leg) {
     if (leg.foot_geoms.size() == 1) {
-      line("foot = {}  # the lowest shape that collides of its last body",
-           io::toml_quoted(parts_.geoms[to_index(leg.foot_geom)].name));
+      line("foot = {}  # the lowest shape that collides of {}",
+           io::toml_quoted(parts_.geoms[to_index(leg.foot_geom)].name),
+           bodies_beyond_foot(parts_, leg).empty() ? "its last body" : "its last body that has one");
       return;
     }
     std::vector<std::string> names;

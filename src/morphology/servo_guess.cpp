@@ -41,8 +41,10 @@ struct Actuator {
   double max_torque_nm = 0.0;  ///< to the weaker side, if it has two; 0: not limited
   std::string uneven;          ///< its range of force, if it is not the same to both sides
   double control_limit = 0.0;  ///< to the weaker side likewise; 0: not limited
+  bool control_is_one_sided = false;
   std::string uneven_control;  ///< what its range of control amounts to, if it is not the same to both sides
   bool is_geared = false;      ///< its forces are not its joint's torques
+  bool acts_to_one_side = false;  ///< by its range of force
 };
 
 Actuator read(const mjModel& model, int a) {
@@ -60,10 +62,12 @@ Actuator read(const mjModel& model, int a) {
     const mjtNum* range = model.actuator_forcerange + 2 * a;
     actuator.max_torque_nm = gear * weaker_side(range[0], range[1]);
     if (range[0] != -range[1]) actuator.uneven = fmt::format("{:.4g} to {:.4g}", range[0], range[1]);
+    actuator.acts_to_one_side = range[0] * range[1] >= 0.0;
   }
   if (model.actuator_ctrllimited[a] != 0) {
     const mjtNum* range = model.actuator_ctrlrange + 2 * a;
     actuator.control_limit = weaker_side(range[0], range[1]);
+    actuator.control_is_one_sided = range[0] * range[1] >= 0.0;  // oddity() says so
     if (range[0] != -range[1])
       actuator.uneven_control =
           fmt::format("{:.4g} to {:.4g}", range[0] * actuator.gain, range[1] * actuator.gain);
@@ -71,16 +75,38 @@ Actuator read(const mjModel& model, int a) {
   return actuator;
 }
 
-/// The angles, as the model counts them, at which a position actuator comes to rest within its ctrlrange.
+/// Whether its state, and not its control, is what it pulls towards: the control is a speed of that.
+bool integrates(const mjModel& model, int a) {
+  return model.actuator_dyntype[a] == mjDYN_INTEGRATOR;
+}
+
+/// What an actuator does that no motor does; empty: nothing.
+std::string oddity(const mjModel& model, int a) {
+  const bool one_way = model.actuator_ctrllimited[a] != 0 && model.actuator_biastype[a] == mjBIAS_NONE &&
+                       model.actuator_ctrlrange[2 * a] * model.actuator_ctrlrange[2 * a + 1] >= 0.0;
+  if (model.actuator_gaintype[a] == mjGAIN_MUSCLE || model.actuator_dyntype[a] == mjDYN_MUSCLE)
+    return "a muscle, which only pulls";
+  if (model.actuator_gaintype[a] == mjGAIN_AFFINE && model.actuator_gainprm[mjNGAIN * a] == 0.0)
+    return "a damper, which only brakes";
+  if (integrates(model, a))
+    return "integrates its control, which is a speed, and its targets are its actrange";
+  if (one_way) return "pushes to one side alone, by its ctrlrange";
+  return {};
+}
+
+/// The angles, as the model counts them, at which a position actuator comes to rest within its ctrlrange, or,
+/// if it integrates, its actrange.
 std::optional<std::array<double, 2>> target_range(const mjModel& model, int a) {
-  if (model.actuator_ctrllimited[a] == 0 || model.actuator_gaintype[a] != mjGAIN_FIXED) return std::nullopt;
+  const bool by_state = integrates(model, a);
+  const mjtByte* const limited = by_state ? model.actuator_actlimited : model.actuator_ctrllimited;
+  const mjtNum* const range = (by_state ? model.actuator_actrange : model.actuator_ctrlrange) + 2 * a;
+  if (limited[a] == 0 || model.actuator_gaintype[a] != mjGAIN_FIXED) return std::nullopt;
   const mjtNum* const bias = model.actuator_biasprm + mjNBIAS * a;
   const auto angle_rad = [&](double control) {
     return (model.actuator_gainprm[mjNGAIN * a] * control + bias[0]) /
            (-bias[1] * model.actuator_gear[6 * a]);
   };
-  const std::array ends{angle_rad(model.actuator_ctrlrange[2 * a]),
-                        angle_rad(model.actuator_ctrlrange[2 * a + 1])};
+  const std::array ends{angle_rad(range[0]), angle_rad(range[1])};
   const auto [lower, upper] = std::ranges::minmax(ends);
   if (!(lower < upper)) return std::nullopt;
   return std::array{lower, upper};
@@ -104,8 +130,12 @@ class ServoGuesser {
       ServoGuess guessed = actuator.kp > 0.0   ? of_position(actuator, hint, damping)
                            : actuator.kv > 0.0 ? of_velocity(actuator, hint)
                                                : of_motor(actuator, hint, damping);
-      if (guessed.uneven_force.empty()) guessed.uneven_force = actuator.uneven;
+      if (guessed.uneven_force.empty()) {
+        guessed.uneven_force = actuator.uneven;
+        guessed.acts_to_one_side = actuator.acts_to_one_side;
+      }
       if (actuator.kp > 0.0) guessed.target_range_rad = target_range(model, actuators.front());
+      guessed.oddity = oddity(model, actuators.front());
       return guessed;
     }
     ServoGuess guessed = hint.max_torque_nm > 0.0 ? of_effort(hint) : of_nothing(hint);
@@ -207,8 +237,16 @@ class ServoGuesser {
 
   ServoGuess of_velocity(const Actuator& actuator, const MotorHint& hint) const {
     auto [most, source] = limit(actuator, hint);
-    return {velocity(most),
-            fmt::format("a velocity actuator; torque: {}; gain: that of the paper's motors", source),
+    robot::Servo servo = velocity(most);
+    std::string gain_why = "that of the paper's motors";
+    // Without a load its joint turns so fast.
+    const double speed_rad_s = actuator.control_limit * actuator.gain / actuator.kv;
+    if (gain_within(speed_rad_s) < velocity_gain_per_s) {
+      servo.gain_per_s = gain_within(speed_rad_s);
+      gain_why = fmt::format("{} rad from its target a joint turns at the actuator's ctrlrange, {:.4g} rad/s",
+                             widest_error_rad, speed_rad_s);
+    }
+    return {servo, fmt::format("a velocity actuator; torque: {}; gain: {}", source, gain_why),
             !has_limit(actuator, hint)};
   }
 
@@ -228,8 +266,10 @@ class ServoGuesser {
                 "joint's damping, {} s × kp",
                 source, bearing_error_rad, damping_time_s),
             .torque_is_guessed = !is_by_control && !has_limit(actuator, hint),
-            .lacks_gear = is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0,
-            .uneven_force = is_by_control ? actuator.uneven_control : std::string()};
+            .lacks_gear = is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0 &&
+                          actuator.uneven_control.empty(),
+            .uneven_force =
+                is_by_control && !actuator.control_is_one_sided ? actuator.uneven_control : std::string()};
   }
 
   const ModelFile& file_;
@@ -288,7 +328,7 @@ double gain_within(double max_speed_rad_s) {
 
 std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelParts& parts,
                                           const std::vector<ServoGuess>& servos, double bearing_nm) {
-  std::vector<std::string> torqueless, speedless, gearless, uneven;
+  std::vector<std::string> torqueless, speedless, gearless, uneven, one_sided, odd, limp;
   bool in_kg_cm = false;
   for (std::size_t j = 0; j < servos.size(); ++j) {
     if (parts.drives[j] == Drive::none) continue;
@@ -297,7 +337,11 @@ std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelPart
     if (servos[j].speed_is_guessed) speedless.push_back(name);
     if (servos[j].lacks_gear) gearless.push_back(name);
     if (!servos[j].uneven_force.empty())
-      uneven.push_back(fmt::format("{} ({})", name, servos[j].uneven_force));
+      (servos[j].acts_to_one_side ? one_sided : uneven)
+          .push_back(fmt::format("{} ({})", name, servos[j].uneven_force));
+    if (!servos[j].oddity.empty()) odd.push_back(fmt::format("{} ({})", name, servos[j].oddity));
+    if (servos[j].has_no_speed_limit && servos[j].servo.kp_nm_per_rad * widest_error_rad < bearing_nm)
+      limp.push_back(fmt::format("{} ({:.3g})", name, servos[j].servo.kp_nm_per_rad));
     const auto hint = file.motors.find(name);
     const double effort = hint == file.motors.end() ? 0.0 : hint->second.max_torque_nm;
     in_kg_cm = in_kg_cm || (servos[j].torque_is_guessed && effort > 0.0 && effort < most_kg_cm &&
@@ -325,6 +369,19 @@ std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelPart
         fmt::format("actuators that are stronger to one side: amble's servos are not, and have the torque of "
                     "the weaker: {}",
                     io::first_few(uneven)));
+  if (!one_sided.empty())
+    doubts.push_back(fmt::format(
+        "actuators whose force acts to one side alone: amble's servos act to both, as strongly: {}",
+        io::first_few(one_sided)));
+  if (!odd.empty())
+    doubts.push_back(
+        fmt::format("actuators that are not as servos of a joint's angle, and are simulated as such: {}",
+                    io::first_few(odd)));
+  if (!limp.empty())
+    doubts.push_back(
+        fmt::format("kp, N m per rad, with which a leg's share of the weight, {:.3g} N m, is not held "
+                    "even {} rad from the target: {}; 1 is what MuJoCo takes where a model has none",
+                    bearing_nm, widest_error_rad, io::first_few(limp)));
   if (std::string strong = strong_actuators(parts, servos, bearing_nm); !strong.empty())
     doubts.push_back(std::move(strong));
   return doubts;

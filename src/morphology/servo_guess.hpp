@@ -21,6 +21,8 @@ struct ServoGuess {
   /// actuator, soft limits of a URDF.
   std::optional<std::array<double, 2>> target_range_rad = {};
   std::string uneven_force = {};  ///< an actuator's range of force that is not the same to both sides
+  bool acts_to_one_side = false;  ///< and that does not pass 0
+  std::string oddity = {};        ///< what its actuator does that no servo of an angle does
 };
 
 /// The torque with which a leg of that length bears its share of the robot's weight at right angles.

@@ -382,6 +382,12 @@ void describe_side_file(io::SettingsVisitor& visitor) {
 }
 
 SideFile read_side_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    const auto of_run = path / "robot.json";
+    fail(ExitCode::bad_input, "{}: a folder, and not a robot file; expected {}", path.string(),
+         std::filesystem::exists(of_run, error) ? of_run.string() : "its TOML file");
+  }
   if (path.extension() != ".toml")
     fail(ExitCode::bad_input,
          "{}: a robot is named by its TOML file, which names the model (robots/README.md); to make one of a "

@@ -51,6 +51,7 @@ StopCounts count_stops(const StudyData& data, const std::vector<const ledger::Te
   for (const auto* result : results) metered_s.push_back(result->episodes.front().walking_s);
   counts.metered = count_from(metered_s, counts.at_least_s);
   for (std::size_t rule = 0; rule < stop_rules.size(); ++rule) {
+    if (stop_rules[rule].window_s > results.front()->trial_s) continue;  // nobody can stop for so long
     std::vector<double> walking_s;
     walking_s.reserve(results.size());
     for (const auto* result : results) walking_s.push_back(*walking_by_path_s(*result, stop_rules[rule]));
@@ -77,11 +78,15 @@ std::optional<double> walking_by_path_s(const ledger::TestResult& test, const sc
 }
 
 std::size_t StopCounts::fewest() const {
-  return *std::ranges::min_element(runs);
+  std::size_t least = n;
+  for (const auto& count : runs) least = std::min(least, count.value_or(n));
+  return least;
 }
 
 std::size_t StopCounts::most() const {
-  return *std::ranges::max_element(runs);
+  std::size_t most = 0;
+  for (const auto& count : runs) most = std::max(most, count.value_or(0));
+  return most;
 }
 
 std::vector<StopCounts> stop_counts(const StudyData& data) {

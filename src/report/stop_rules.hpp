@@ -41,8 +41,9 @@ struct StopCounts {
   std::optional<std::size_t> claim = {};  ///< index of the claim that counts them; none: the whole test
   std::size_t n = 0;                      ///< champions with a path
   std::size_t metered = 0;                ///< of these by score::WalkingMeter, in the first episode
-  std::array<std::size_t, stop_rules.size()> runs{};
-  std::array<Verdict, stop_rules.size()> verdicts{};  ///< on the claim, if there is one
+  /// None by a rule whose window is longer than the test: in it nobody can stop.
+  std::array<std::optional<std::size_t>, stop_rules.size()> runs{};
+  std::array<Verdict, stop_rules.size()> verdicts{};  ///< on the claim, if there is one; only where `runs` is
 
   std::size_t fewest() const;
   std::size_t most() const;

@@ -199,6 +199,31 @@ std::string rules_text(const ledger::JudgingRules& rules) {
 
 namespace {
 
+/// Whether two conditions that evolve for themselves gave the same champions with each seed that both have.
+bool gave_the_same(const StudyData& data, const ledger::ConditionSpec& a, const ledger::ConditionSpec& b) {
+  if (a.gaits != b.gaits || a.steering != b.steering) return false;
+  std::size_t pairs = 0;
+  for (const ledger::Record* one : data.runs(a.name))
+    for (const ledger::Record* other : data.runs(b.name)) {
+      if (one->seed != other->seed) continue;
+      ++pairs;
+      const auto genome = one->champion.find("genome"), its = other->champion.find("genome");
+      if (genome == one->champion.end() || its == other->champion.end() || *genome != *its) return false;
+    }
+  return pairs >= 2;
+}
+
+void remark_on_equal_conditions(const StudyData& data, std::vector<std::string>& remarks) {
+  const auto& conditions = data.study.conditions;
+  for (std::size_t j = 0; j < conditions.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i)
+      if (gave_the_same(data, conditions[i], conditions[j]))
+        remarks.push_back(fmt::format(
+            "Conditions {} and {} gave the same champions with the same seeds: what differs between them has "
+            "no effect on evolution, and what is found between them is no finding.",
+            io::printable(conditions[i].name), io::printable(conditions[j].name)));
+}
+
 void remark_on_claims(const StudyData& data, std::vector<std::string>& remarks) {
   const ClaimsWritten written = claims_written(data);
   if (written.differently > 0)
@@ -235,6 +260,7 @@ std::vector<std::string> remarks(const StudyData& data) {
       }))
     remarks.push_back(
         "Conditions were evolved by different scores; what they got in evolution cannot be compared.");
+  remark_on_equal_conditions(data, remarks);
   for (const ledger::TestSpec& test : data.study.tests) remark_on_test(data, test, remarks);
   if (!data.study.claims.empty()) remark_on_claims(data, remarks);
   if (!data.unknown_files.empty())

@@ -195,11 +195,11 @@ Table stops_table(const Report& report) {
       {}};
   for (const StopCounts& counts : report.stops)
     for (std::size_t i = 0; i < stop_rules.size(); ++i)
-      table.rows.push_back({counts.test, counts.condition, counts.at_least_s,
-                            counts.claim ? cell(*counts.claim + 1) : Cell(), stop_rules[i].window_s,
-                            stop_rules[i].radius_m, cell(counts.runs[i]), cell(counts.n),
-                            i == ledger_stop_rule ? cell(counts.metered) : Cell(),
-                            counts.claim ? Cell(std::string(name_of(counts.verdicts[i]))) : Cell()});
+      table.rows.push_back(
+          {counts.test, counts.condition, counts.at_least_s, counts.claim ? cell(*counts.claim + 1) : Cell(),
+           stop_rules[i].window_s, stop_rules[i].radius_m, counts.runs[i] ? cell(*counts.runs[i]) : Cell(),
+           cell(counts.n), i == ledger_stop_rule ? cell(counts.metered) : Cell(),
+           counts.claim && counts.runs[i] ? Cell(std::string(name_of(counts.verdicts[i]))) : Cell()});
   return table;
 }
 

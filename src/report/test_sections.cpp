@@ -84,7 +84,9 @@ std::string rule_text(const score::StandingRule& rule) {
 std::string verdicts_text(const StopCounts& counts) {
   std::string text;
   for (std::size_t verdict = 0; verdict < verdict_names.size(); ++verdict) {
-    const auto rules = std::ranges::count(counts.verdicts, static_cast<Verdict>(verdict));
+    std::size_t rules = 0;
+    for (std::size_t rule = 0; rule < stop_rules.size(); ++rule)
+      rules += counts.runs[rule] && counts.verdicts[rule] == static_cast<Verdict>(verdict);
     if (rules > 0) text += fmt::format("{}{} by {}", text.empty() ? "" : ", ", verdict_names[verdict], rules);
   }
   return text;
@@ -108,7 +110,7 @@ std::string test_table(const Report& report, const std::string& test) {
     ++rows;
     std::vector<std::string> cells{row_text(report, counts), fmt::format("{}", counts.n),
                                    fmt::format("{}", counts.metered)};
-    for (const std::size_t runs : counts.runs) cells.push_back(fmt::format("{}", runs));
+    for (const auto& runs : counts.runs) cells.push_back(runs ? fmt::format("{}", *runs) : "–");
     cells.push_back(counts.claim ? verdicts_text(counts) : "");
     table.row(cells);
   }

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
+#include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/study_data.hpp"
+#include "amble/score/walking.hpp"
 #include "amble/statistics/hypothesis_tests.hpp"
 
 namespace amble::report {
@@ -28,9 +30,34 @@ std::size_t needed_by_ranks(double alpha) {
 std::string too_short(const ledger::StudySpec& study, const ClaimSpec& claim) {
   const ledger::ConditionSpec& condition = *study.find(claim.condition);
   const int generations = condition.generations > 0 ? condition.generations : study.generations;
-  if (generations == 0 || generations > claim.from_generation) return {};
-  return fmt::format("with {} of '{}' it cannot be decided; more than from_generation = {} are needed",
-                     counted(to_index(generations), "generation"), claim.condition, claim.from_generation);
+  const int needed = claim.from_generation + 2;  // they count from 0, and one must follow
+  if (generations == 0 || generations >= needed) return {};
+  return fmt::format("with {} of '{}' it cannot be decided; from_generation = {} needs {}",
+                     counted(to_index(generations), "generation"), claim.condition, claim.from_generation,
+                     needed);
+}
+
+/// What no run's measure exceeds; infinite where that is not known.
+double most_of(const ledger::StudySpec& study, std::string_view measure) {
+  const ledger::TestSpec* const test = ledger::test_of(study, measure);
+  if (test != nullptr && measure.ends_with("_s"))
+    for (const std::string_view time : {".upright_s", ".walking_s", ".moving_s"})
+      if (measure.ends_with(time)) return test->seconds;
+  const bool is_share = ledger::is_share(measure) || (test != nullptr && measure.ends_with(".tracking"));
+  return is_share ? 1.0 : ledger::unbounded;
+}
+
+/// A threshold that no run can reach, or that all do.
+std::string beyond_reach(const ledger::StudySpec& study, const ClaimSpec& claim) {
+  if (!claim.threshold_condition.empty()) return {};
+  const double most = most_of(study, claim.measure);
+  if (claim.threshold > most)
+    return fmt::format("threshold = {:g}: {} is at most {:g}", claim.threshold, claim.measure, most);
+  const double stop_s = score::StandingRule().window_s;
+  if (claim.measure.ends_with(".walking_s") && most <= stop_s)
+    return fmt::format("{} cannot tell who stops: a stop takes {:g} s, and the test is {:g} s long",
+                       claim.measure, stop_s, most);
+  return {};
 }
 
 /// No outcome can confirm a count of more runs than there are.
@@ -43,8 +70,10 @@ std::string too_few(const ClaimSpec& claim, std::size_t planned) {
 std::string line_of(const StudyData& data, const ClaimSpec& claim) {
   if (claim.kind == ClaimKind::plateau)
     if (std::string line = too_short(data.study, claim); !line.empty()) return line;
-  if (claim.kind == ClaimKind::count)
+  if (claim.kind == ClaimKind::count) {
+    if (std::string line = beyond_reach(data.study, claim); !line.empty()) return line;
     if (std::string line = too_few(claim, data.planned(claim.condition)); !line.empty()) return line;
+  }
   std::size_t least = data.planned(claim.condition);
   std::string fewest = claim.condition;
   const std::string& other = claim.against.empty() ? claim.threshold_condition : claim.against;

@@ -174,6 +174,36 @@ void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
         robot.total_mass_kg(), io::first_few(stepping)));
 }
 
+/// Joints that hardly move whatever their motor does.
+void doubt_held_joints(const RobotSpec& robot, std::vector<std::string>& lines) {
+  constexpr double slow_rad_s = 1.0, far_rad = 0.8, long_s = 1.0;
+  std::vector<std::string> stuck, damped, heavy;
+  for (const Joint& joint : robot.joints) {
+    if (!joint.has_motor()) continue;
+    const double torque_nm = joint.servo.max_torque_nm;
+    if (joint.friction_loss_nm >= torque_nm)
+      stuck.push_back(
+          fmt::format("{} ({:.3g} of {:.3g} N m)", joint.name, torque_nm, joint.friction_loss_nm));
+    else if (joint.damping_nm_s_per_rad * slow_rad_s > torque_nm)
+      damped.push_back(fmt::format("{} ({:.2g} rad/s)", joint.name, torque_nm / joint.damping_nm_s_per_rad));
+    else if (2.0 * far_rad * joint.armature_kg_m2 > torque_nm * long_s * long_s)
+      heavy.push_back(fmt::format("{} ({:.2g} s)", joint.name,
+                                  std::sqrt(2.0 * far_rad * joint.armature_kg_m2 / torque_nm)));
+  }
+  if (!stuck.empty())
+    lines.push_back(
+        fmt::format("motors that do not overcome the dry friction of their joints, which stay where "
+                    "they are: {}; check max_torque_nm and friction",
+                    io::first_few(stuck)));
+  if (!damped.empty())
+    lines.push_back(
+        fmt::format("joints whose damping leaves their motors hardly any speed, at most: {}; check damping",
+                    io::first_few(damped)));
+  if (!heavy.empty())
+    lines.push_back(fmt::format("rotors so heavy that motors need long to turn {} rad: {}; check armature",
+                                far_rad, io::first_few(heavy)));
+}
+
 /// With less friction than ice has no foot finds a hold.
 void doubt_friction(const RobotSpec& robot, std::vector<std::string>& lines) {
   constexpr double of_ice = 0.03;
@@ -251,6 +281,7 @@ std::vector<std::string> doubts(const RobotSpec& robot) {
   doubt_placeholders(robot, lines);
   doubt_torques(robot, lines);
   doubt_strength(robot, lines);
+  doubt_held_joints(robot, lines);
   doubt_axes(robot, lines);
   doubt_friction(robot, lines);
   doubt_stops(robot, lines);

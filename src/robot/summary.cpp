@@ -89,7 +89,8 @@ std::string shape_text(const Geom& geom) {
 
 std::string bodies_text(const RobotSpec& robot) {
   const std::vector<Pose> poses = start_poses(robot);
-  std::vector<Row> rows{{"body", "parent", "mass kg", "inertia kg m2", "centre of mass in the world, m"}};
+  std::vector<Row> rows{
+      {"body", "parent", "mass kg", "principal inertia kg m2", "centre of mass in the world, m"}};
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const Body& body = robot.bodies[b];
     const std::string parent = body.parent < 0 ? "-" : robot.bodies[to_index(body.parent)].name;

@@ -119,8 +119,8 @@ StrategyKind completed(StrategyKind kind) {
   return kind;
 }
 
-/// Tables of a search that breeds genomes by NEAT.
-std::vector<std::string> with_variation(std::vector<std::string> own) {
+/// Tables of a search by generations of NEAT.
+std::vector<std::string> with_neat(std::vector<std::string> own) {
   own.insert(own.end(), {"mutation", "crossover", "speciation", "reproduction"});
   return own;
 }
@@ -130,21 +130,20 @@ std::vector<std::string> with_variation(std::vector<std::string> own) {
 Registry<StrategyKind>& kinds() {
   static Registry<StrategyKind> all(
       "search",
-      {completed(
-           {.name = "objective", .behaviour = "", .make = make_objective, .tables = with_variation({})}),
+      {completed({.name = "objective", .behaviour = "", .make = make_objective, .tables = with_neat({})}),
        completed({.name = "novelty",
                   .behaviour = "path",
                   .make = make_novelty,
                   .validate = validate_novelty,
                   .check_memory = check_novelty_memory,
-                  .tables = with_variation({"search.novelty"})}),
+                  .tables = with_neat({"search.novelty"})}),
        completed({.name = "map-elites",
                   .behaviour = "descriptors",
                   .make = make_map_elites,
                   .candidates = batch,
                   .validate = validate_map_elites,
                   .check_memory = check_map_elites_memory,
-                  .tables = with_variation({"search.map_elites"})}),
+                  .tables = {"search.map_elites", "mutation", "crossover"}}),
        completed({.name = "cma-es",
                   .behaviour = "",
                   .make = make_cma_es,

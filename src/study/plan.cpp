@@ -92,6 +92,12 @@ PlannedTest of_condition(const ledger::StudySpec& study, std::size_t test_index,
             fmt::format("test '{}' has level = \"{}\", and the config is without noise; expected {}",
                         test.spec.name, record::own_noise, record::level_names()));
   }
+  if (test.damage && test.damage->is_default() && condition.config.damage.is_default())
+    blame(study, fmt::format("tests[{}].damage", test_index), condition.spec.name,
+          fmt::format(
+              "test '{}' has damage = \"{}\", a config without [damage], and the robot has none anyway; "
+              "expected a config that has it",
+              test.spec.name, test.spec.damage));
   if (test.command) test.steering = steering;
   return test;
 }
@@ -229,8 +235,9 @@ void check_measures(const Plan& plan) {
   }
 }
 
-/// Why a record does not fit; empty if it does, or only lacks tests.
-std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record) {
+/// Why a record does not fit; empty if it does, or only lacks tests. `folder`: that of its run.
+std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record,
+                          const fs::path& folder) {
   if (record.config != condition.recorded_hash()) return "made with other settings or another robot";
   if (record.generations != condition.config.generations)
     return fmt::format("{} generations instead of {}", record.generations, condition.config.generations);
@@ -238,6 +245,10 @@ std::string record_misfit(const PlannedCondition& condition, const ledger::Recor
     const auto* const result = record.find_test(test.spec.name);
     if (result != nullptr && result->settings != test.settings_hash(condition.config.engine))
       return fmt::format("the test '{}' was another one", test.spec.name);
+    if (test.spec.reach_m > 0.0 && test.is_due(record) && !experiment::is_run_folder(folder))
+      return fmt::format(
+          "the test '{}' has reach_m and looks through all champions of a run, and these were discarded",
+          test.spec.name);
   }
   return {};
 }
@@ -266,7 +277,7 @@ Finding look_at(const Plan& plan, const ledger::Ledger& ledger, const PlannedRun
     const auto record = ledger.load(condition.spec.name, run.seed);
     return {.status = condition.has_all_tests(record) ? RunStatus::done : RunStatus::untested,
             .place = plan.paths.record(condition.spec.name, run.seed),
-            .misfit = record_misfit(condition, record)};
+            .misfit = record_misfit(condition, record, plan.folder(run))};
   }
   const auto folder = plan.folder(run);
   if (!experiment::is_run_folder(folder)) return {};

@@ -11,6 +11,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/given_damage.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/physics/engine_kinds.hpp"
@@ -102,7 +103,14 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
         fmt::format("'{}' = {}: without noise, and with all starts at one place of the ground "
                     "(ground.start_place_m), all trials are the same",
                     key_of("tests", index, "episodes"), test.spec.episodes));
-  if (!test.spec.damage.empty()) test.damage = config_of(study, index, "damage", test.spec.damage).damage;
+  if (!test.spec.damage.empty()) {
+    test.damage = config_of(study, index, "damage", test.spec.damage).damage;
+    try {
+      experiment::check_begins(*test.damage, test.spec.seconds);
+    } catch (const SettingError& error) {
+      throw study.error_at(key_of("tests", index, "damage"), error.what());
+    }
+  }
   if (test.spec.command.empty()) return test;
   try {
     test.command = {.kind = trial::CommandKind::fixed, .stretches = trial::parse_commands(test.spec.command)};

@@ -59,8 +59,8 @@ TEST(ExportCommand, PrintsJsonAndMjcfOrWritesThem) {
   EXPECT_THAT(json.out, AllOf(StartsWith("{\n  \"format\": \"amble-export\""), HasSubstr("\"neural\"")));
   const auto mjcf = amble({"export", run, "--format", "mjcf"});
   EXPECT_EQ(mjcf.exit_code, 0) << mjcf.err;
-  EXPECT_THAT(mjcf.out,
-              AllOf(StartsWith("<mujoco model="), HasSubstr("<actuator>"), EndsWith("</mujoco>\n")));
+  EXPECT_THAT(mjcf.out, AllOf(StartsWith("<!-- Written by amble. -->\n<mujoco model="),
+                              HasSubstr("<actuator>"), EndsWith("</mujoco>\n")));
   EXPECT_EQ(amble({"export", run, "--format", "json", "-o", scratch / "a.json"}).exit_code, 0);
   EXPECT_EQ(slurp(scratch / "a.json"), json.out);
   EXPECT_EQ(amble({"export", run, "--format", "mjcf", "-o", scratch / "a.xml"}).exit_code, 0);

@@ -66,7 +66,7 @@ TEST_F(LabCommand, WritesNothingWhereThePageCannotBe) {
   expect_refusal({"lab", robot("servo"), "-o", below}, ExitCode::io,
                  "cannot write " + below + ": Not a directory");
   expect_refusal({"lab", robot("servo"), "-o", notes}, ExitCode::bad_input,
-                 notes + " exists and is not a page: name another file");
+                 notes + " exists and is not a page that amble wrote: name another file");
   expect_refusal({"lab", robot("servo")}, ExitCode::bad_input, "--out is required (amble lab --help)");
 }
 

@@ -213,7 +213,7 @@ TEST(RefuseToReplace, LetsPassWhatIsMissingEmptyOrOfTheSameKind) {
   refuse_to_replace(path, "<!DOCTYPE", "a page");
   write_file(path, "<!DOC");
   EXPECT_EQ(error_of(ExitCode::bad_input, [&] { refuse_to_replace(path, "<!DOCTYPE", "a page"); }),
-            path.string() + " exists and is not a page: name another file");
+            path.string() + " exists and is not a page that amble wrote: name another file");
 }
 
 TEST(CheckOutput, LetsPassWhatWriteOutputCanWriteAndMakesNothing) {
@@ -221,8 +221,9 @@ TEST(CheckOutput, LetsPassWhatWriteOutputCanWriteAndMakesNothing) {
   const auto path = folder / "new/of/a.svg";
   check_output(path, "<svg", "a drawing");
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
-  write_output(path, "<svg/>");
-  EXPECT_EQ(read_file(path), "<svg/>");
+  const std::string drawing = "<svg role=\"img\" aria-label=\"a walk\"/>";
+  write_output(path, drawing);
+  EXPECT_EQ(read_file(path), drawing);
   check_output(path, "<svg", "a drawing");
   check_output("/dev/null", "<svg", "a drawing");
   const auto below = path / "b.svg", is_folder = folder / "new";

@@ -201,11 +201,24 @@ TEST(LegGuess, EndsNearTheGroundWhereverTheModelStands) {
       // A heavy trunk: the centre of mass is its, 0.42 m over the lowest point.
       text = with(text, R"(size=".2 .1 .05")", R"(size=".2 .1 .05" mass="1000")");
       text = with(text, "</body></worldbody>",
-                  fmt::format(R"(<body pos="-0.4 0 0"><joint name="tail" axis="0 1 0" range="-9 9"/>
+                  fmt::format(R"(<body pos="-0.4 0 0"><joint name="fifth" axis="0 1 0" range="-9 9"/>
                                  <geom pos="0 0 {}" size="0.01" mass="0.01"/></body></body></worldbody>)",
                               -0.42 + tail_m + 0.01));
       EXPECT_EQ(guess_of(files, text).legs.size(), share < 0.25 ? 5u : 4u) << root_m << " " << share;
     }
+}
+
+TEST(LegGuess, TakesATailThatRestsOnTheGroundForNoLeg) {
+  const Files files;
+  std::string text = model_of_legs(silent_names(4), four_places);
+  for (const auto& [name, legs] : {std::pair{"tail_pitch", 4u}, {"fifth", 5u}}) {
+    const std::string model =
+        with(text, "</body></worldbody>",
+             fmt::format(R"(<body pos="-0.4 0 0"><joint name="{}" axis="0 1 0" range="-9 9"/>
+                                 <geom pos="0 0 -0.41" size="0.01" mass="0.01"/></body></body></worldbody>)",
+                         name));
+    EXPECT_EQ(guess_of(files, model).legs.size(), legs) << name;
+  }
 }
 
 }  // namespace

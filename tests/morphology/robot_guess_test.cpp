@@ -183,11 +183,15 @@ TEST(RobotGuess, LimitsAMotorByTheWeakerSideOfItsControlRangeAsOfAForceRange) {
     const SmallModel model{
         "lopsided", "xml", model_text(four_legs(), "<freejoint/>", "", tests::motors(motor)), 4, 8, 0};
     EXPECT_EQ(load(files, model).joints[0].servo.max_torque_nm, torque_nm) << range;
-    const auto named = testing::Contains(HasSubstr("stronger to one side"));
+    const auto stronger = testing::Contains(HasSubstr("stronger to one side")),
+               alone = testing::Contains(HasSubstr("pushes to one side alone"));
+    const std::vector<std::string> doubts = guess(files, model).doubts;
     if (std::string_view(range) == "-3 3")
-      EXPECT_THAT(guess(files, model).doubts, Not(named)) << range;
+      EXPECT_THAT(doubts, AllOf(Not(stronger), Not(alone))) << range;
+    else if (std::string_view(range) == "0 3")
+      EXPECT_THAT(doubts, AllOf(Not(stronger), alone)) << range;
     else
-      EXPECT_THAT(guess(files, model).doubts, named) << range;
+      EXPECT_THAT(doubts, AllOf(stronger, Not(alone))) << range;
   }
 }
 
@@ -278,6 +282,58 @@ TEST(RobotGuess, DoubtsFeetThatTheFloorOfTheModelDoesNotBearOrHold) {
   EXPECT_THAT(doubts(with(text, floor, floor + R"( condim="1" priority="1")")), HasSubstr("by condim = 1"));
   EXPECT_EQ(doubts(with(text, floor, floor + R"( condim="1")")), of_head) << "the greater one counts";
   EXPECT_EQ(doubts(with(text, floor + "/>", "")), of_head) << "amble's own floor has friction";
+}
+
+TEST(RobotGuess, DoubtsActuatorsThatAreNoServosOfAnAngle) {
+  const Files files;
+  const auto doubts = [&](const std::string& actuator) {
+    const SmallModel model{"odd", "xml", model_text(four_legs(), "<freejoint/>", "", tests::motors(actuator)),
+                           4,     8,     0};
+    std::string all;
+    for (const std::string& doubt : guess(files, model).doubts) all += doubt + "\n";
+    return all;
+  };
+  EXPECT_THAT(doubts(R"(damper kv="2" ctrlrange="0 5")"), HasSubstr("a damper, which only brakes"));
+  EXPECT_THAT(doubts(R"(muscle force="10")"), HasSubstr("a muscle, which only pulls"));
+  EXPECT_THAT(doubts(R"(intvelocity kp="20" ctrlrange="-3 3" actrange="-1 1")"),
+              HasSubstr("integrates its control"));
+  EXPECT_THAT(doubts(R"(position kp="20" forcerange="0 5")"),
+              AllOf(HasSubstr("acts to one side alone"), Not(HasSubstr("the weaker"))));
+  EXPECT_THAT(doubts(R"(position kp="0.2" forcerange="-5 5")"), HasSubstr("is not held even 0.8 rad"));
+  EXPECT_THAT(doubts(R"(position kp="200" forcerange="-5 5")"), Not(HasSubstr("is not held even")));
+}
+
+TEST(RobotGuess, ReadsSidesFromCodesWithANumberBehind) {
+  const Files files;
+  const auto of = [&](const char* left, const char* right) {
+    std::string text = model_of("head").text;
+    for (const auto& [was, is] : {std::pair{"FL_", left + std::string("1_")},
+                                  {"RL_", left + std::string("2_")},
+                                  {"FR_", right + std::string("1_")},
+                                  {"RR_", right + std::string("2_")}})
+      for (std::size_t at = 0; (at = text.find(was, at)) != std::string::npos; at += is.size())
+        text.replace(at, 3, is);
+    for (std::size_t at = 0; (at = text.find("head", at)) != std::string::npos; at += 4)
+      text.replace(at, 4, "knob");
+    return guess(files, {"coded", "xml", text, 4, 8, 1}).toml;
+  };
+  EXPECT_THAT(of("L", "R"), Not(HasSubstr("start_rpy_deg")));
+  EXPECT_THAT(of("R", "L"), HasSubstr("start_rpy_deg = [0, 0, 180]"));
+}
+
+TEST(RobotGuess, TakesTheSpeedAndTheAnglesThatActuatorsReach) {
+  const Files files;
+  const auto of = [&](const std::string& actuator) {
+    return guess(files, {"reach", "xml", model_text(four_legs(), "<freejoint/>", "", tests::motors(actuator)),
+                         4, 8, 0})
+        .toml;
+  };
+  EXPECT_THAT(of(R"(velocity kv="5" ctrlrange="-1 1" forcerange="-5 5")"), HasSubstr("gain_per_s = 1.25"));
+  EXPECT_THAT(of(R"(velocity kv="5" ctrlrange="-2 2" gear="2" forcerange="-5 5")"),
+              HasSubstr("gain_per_s = 1.25"));
+  EXPECT_THAT(of(R"(velocity kv="5" ctrlrange="-40 40" forcerange="-5 5")"), HasSubstr("gain_per_s = 9"));
+  EXPECT_THAT(of(R"(intvelocity kp="20" ctrlrange="-0.1 0.1" actrange="-0.3 0.4")"),
+              HasSubstr("knee = [-0.3, 0.4]\nhip = [-0.3, 0.4]"));
 }
 
 TEST(RobotGuess, CommandsWhatActuatorsTakeAsTargets) {

@@ -56,6 +56,19 @@ TEST(SolverError, AsksForMoreSweepsUnderAHeavyTrunkUntilTheRobotHasThem) {
   EXPECT_EQ(after.better_sweeps, after.sweeps);
 }
 
+TEST(SolverError, SeesJointsThatDryFrictionShouldHoldAndTooFewSweepsLetGo) {
+  robot::RobotSpec robot = quadruped();
+  for (std::size_t b = 1; b < robot.bodies.size(); ++b) {  // light legs, which little moves
+    robot.bodies[b].mass_kg *= 0.05;
+    robot.bodies[b].inertia_kg_m2 = 0.05 * robot.bodies[b].inertia_kg_m2;
+  }
+  for (robot::Joint& joint : robot.joints) joint.friction_loss_nm = 1.2 * joint.servo.max_torque_nm;
+  const std::vector<int> sweeps{14, 160};
+  const auto held = solver_errors_m_s(robot, timestep_s, sweeps);
+  EXPECT_GT(held[0], 0.015) << "it asks for more";
+  EXPECT_LT(held[1], 0.5 * held[0]);
+}
+
 TEST(SolverError, AdviceIsNeverForFewerSweepsOrALargerError) {
   bool in_vain = false;
   for (const double heavier : {1.0, 64.0, 4096.0}) {

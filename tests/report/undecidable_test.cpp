@@ -11,6 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 ledger::StudySpec with_claim(int seeds, ledger::ClaimSpec claim) {
   ledger::StudySpec study = sample_study({"a", "b"}, seeds);
@@ -72,11 +73,35 @@ TEST(UndecidableClaims, OfPlateausNeedRunsThatGoOnAfterTheirGeneration) {
   study.generations = 5;
   EXPECT_THAT(undecidable_claims(study),
               ElementsAre(HasSubstr("with 5 generations of 'a' it cannot be decided; "
-                                    "more than from_generation = 5 are needed")));
-  study.conditions[0].generations = 6;
+                                    "from_generation = 5 needs 7")));
+  study.conditions[0].generations = 6;  // the last is number 5 itself
+  EXPECT_THAT(undecidable_claims(study), Not(IsEmpty()));
+  study.conditions[0].generations = 7;
   EXPECT_THAT(undecidable_claims(study), IsEmpty());
   study.generations = study.conditions[0].generations = 0;  // as in the config
   EXPECT_THAT(undecidable_claims(study), IsEmpty());
+}
+
+TEST(UndecidableClaims, AreCountsByWhatNoRunCanReachOrATestIsTooShortFor) {
+  ledger::ClaimSpec claim;
+  claim.kind = ledger::ClaimKind::count;
+  claim.at_least = 3;
+  const auto line_of = [&](const std::string& measure, double threshold, double seconds) {
+    claim.measure = measure;
+    claim.threshold = threshold;
+    ledger::StudySpec study = with_claim(6, claim);
+    study.tests.resize(1);
+    study.tests[0].name = "t";
+    study.tests[0].seconds = seconds;
+    const auto lines = undecidable_claims(study);
+    return lines.empty() ? std::string() : lines.front();
+  };
+  EXPECT_THAT(line_of("t.upright_s", 30.0, 3.0), HasSubstr("threshold = 30: t.upright_s is at most 3"));
+  EXPECT_THAT(line_of("t.fell_share", 2.0, 3.0), HasSubstr("t.fell_share is at most 1"));
+  EXPECT_THAT(line_of("t.tracking", 3.0, 3.0), HasSubstr("t.tracking is at most 1"));
+  EXPECT_THAT(line_of("t.walking_s", 4.0, 4.0), HasSubstr("cannot tell who stops: a stop takes 10 s"));
+  EXPECT_EQ(line_of("t.walking_s", 15.0, 15.0), "");
+  EXPECT_EQ(line_of("t.upright_s", 3.0, 3.0), "");
 }
 
 TEST(UndecidableClaims, CountMoreRunsThanThereAre) {

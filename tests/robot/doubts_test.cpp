@@ -173,6 +173,22 @@ TEST(Doubts, FrictionIsMoreThanThatOfIce) {
   EXPECT_FALSE(says(std::numeric_limits<double>::infinity()));
 }
 
+TEST(Doubts, MotorsMoveTheirJointsAgainstFrictionDampingAndRotors) {
+  const auto says = [](double friction_nm, double damping, double armature, const char* what) {
+    RobotSpec robot = tests::legged_robot(2);
+    robot.joints[0].servo.max_torque_nm = 5.0;
+    robot.joints[0].friction_loss_nm = friction_nm;
+    robot.joints[0].damping_nm_s_per_rad = damping;
+    robot.joints[0].armature_kg_m2 = armature;
+    return testing::Matches(testing::Contains(HasSubstr(what)))(doubts(robot));
+  };
+  for (const char* what : {"do not overcome the dry friction", "hardly any speed", "rotors so heavy"})
+    EXPECT_FALSE(says(1.0, 0.5, 0.1, what)) << what;
+  EXPECT_TRUE(says(6.0, 0.0, 0.0, "(5 of 6 N m)"));
+  EXPECT_TRUE(says(0.0, 100.0, 0.0, "(0.05 rad/s)"));
+  EXPECT_TRUE(says(0.0, 0.0, 5.0, "(1.3 s)"));
+}
+
 TEST(Doubts, StopsAreInRadians) {
   RobotSpec robot = tests::legged_robot(2);
   const auto says = [&](double lower, double upper) {

@@ -14,6 +14,7 @@
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/study/doubts.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/study/fixture.hpp"
 
@@ -240,6 +241,37 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
       testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': steering: unknown key 'foo'"));
   EXPECT_THAT(refused("turn_gain = 1, joint_types = [\"toe\"]"),
               testing::StartsWith("s.toml:conditions[0].steering: condition 'hand': "));
+}
+
+TEST(Plan, ATestWithDamageIsRefusedWhereNeitherItNorTheConditionHasAny) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.tests = {trial_test("hurt", 1.0)};
+  study.tests[0].damage = config_file("authors/sine-objective");
+  EXPECT_THAT(test::error_of(ExitCode::bad_input, [&] { make_plan(study, folder.path()); }),
+              testing::HasSubstr("a config without [damage]"));
+  study.settings.emplace_back("damage.parts=[{kind='missing', leg='FL'}]");
+  EXPECT_NO_THROW(make_plan(study, folder.path())) << "it is tested intact";
+}
+
+TEST(PlanDoubts, AreConditionsThatAreTheSameAndClaimsOnScoresThatDiffer) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.conditions.push_back(study.conditions[0]);
+  study.conditions[1].name = "other";
+  ledger::ClaimSpec claim;
+  claim.text = "one is more";
+  claim.condition = study.conditions[0].name;
+  claim.against = "other";
+  study.claims = {claim};
+  using testing::ElementsAre;
+  using testing::HasSubstr;
+  EXPECT_THAT(doubts_of(make_plan(study, folder.path())), ElementsAre(HasSubstr("have the same settings")));
+  study.conditions[1].settings = {"score.terms=[{quantity='forward'}]"};
+  EXPECT_THAT(doubts_of(make_plan(study, folder.path())),
+              ElementsAre(HasSubstr("evolve by different scores")));
+  study.conditions[1].settings = {"noise.push_m_s=0.1"};
+  EXPECT_THAT(doubts_of(make_plan(study, folder.path())), testing::IsEmpty());
 }
 
 TEST(Plan, RefusesAClaimOnWhatRunsOfAConditionNeverHave) {

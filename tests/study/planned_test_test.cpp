@@ -98,6 +98,21 @@ TEST(PlannedTest, AMistakeInAFileThatItNamesIsToldWithBothPlaces) {
                                            "include"));
 }
 
+TEST(PlannedTest, HasNoDamageThatBeginsWhenItHasEnded) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "damage.toml").string();
+  auto study = small_study();
+  study.tests = {trial_test("hurt", 1.0)};
+  study.tests[0].damage = file;
+  io::write_file(file,
+                 "robot = \"x.toml\"\ndamage.parts = [{kind = \"missing\", leg = \"FL\", from_s = 0.5}]\n");
+  EXPECT_NO_THROW(plan_test(study, 0));
+  io::write_file(file,
+                 "robot = \"x.toml\"\ndamage.parts = [{kind = \"missing\", leg = \"FL\", from_s = 2}]\n");
+  EXPECT_THAT(test::error_of(ExitCode::bad_input, [&] { plan_test(study, 0); }),
+              testing::HasSubstr("damage.parts[0].from_s = 2: the trial is 1 s long, and has ended by then"));
+}
+
 TEST(PlannedTest, HasTheSettingsOfItsEngine) {
   auto study = small_study();
   study.tests = {trial_test("quick", 1.0)};

@@ -103,12 +103,13 @@ struct Config {
   /// The whole config as TOML with comments; reads back to the same values. `locate_setting` is not in it.
   std::string to_toml() const;
 
+  /// Whether trials differ, as far as a config says: Problem::trials_vary() knows whether commands are heard.
+  bool disturbed() const;
+
  private:
   void check_referees() const;
   void check_evaluation() const;
   void check_tracking() const;
-  /// Whether trials differ.
-  bool disturbed() const;
 };
 
 /// Genomes evaluated in a generation: of a population, or of a batch.

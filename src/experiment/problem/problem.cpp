@@ -198,6 +198,11 @@ trial::Scenario Problem::scenario(const trial::ScenarioKey& key, const ground::G
                               {.ground = on, .place_m = ground.start_place_m}, command);
 }
 
+bool Problem::trials_vary() const {
+  return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() ||
+         (command.varies() && architecture->extra_senses().commands());
+}
+
 std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation,
                                                 const ground::Ground* on) const {
   std::vector<trial::Scenario> all;

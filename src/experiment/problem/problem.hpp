@@ -98,10 +98,8 @@ struct Problem {
   /// does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
   /// Whether trials differ: by noise, that of sensors included, by the place where they start, or by
-  /// commands.
-  bool trials_vary() const {
-    return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies();
-  }
+  /// commands that the controller senses.
+  bool trials_vary() const;
   /// The uneven ground of this key, for this robot; null for the plane. Takes a while.
   std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
   /// The noise of a trial. `on`: its ground, null for the plane; it need not outlive the call.

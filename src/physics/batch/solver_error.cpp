@@ -9,6 +9,8 @@
 #include "amble/physics/batch/lockstep_state.hpp"
 #include "amble/physics/batch/model.hpp"
 #include "amble/physics/batch/step.hpp"
+#include "amble/robot/legs.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::physics {
 namespace {
@@ -17,10 +19,30 @@ using batch::LockstepState;
 using batch::Model;
 using batch::StateRows;
 
+/// Dry friction of this share of a motor's torque holds its joint for a while.
+constexpr double held_share = 0.5;
+
 Model with_sweeps(const robot::RobotSpec& robot, int sweeps) {
   Model model(robot);
   model.iterations = sweeps;
   return model;
+}
+
+/// How far a joint of dry friction moves its foot per radian, by link; 0 of other joints. What holds them is
+/// no velocity of the root.
+std::vector<double> held_levers_m(const robot::RobotSpec& robot, const Model& model) {
+  const std::vector<robot::Pose> poses = robot::start_poses(robot);
+  std::vector<double> by_joint(robot.joints.size(), 0.0), by_link;
+  for (const robot::Leg& leg : robot.legs)
+    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
+      for (const int j : robot.joints_of_body(body)) {
+        const robot::Joint& joint = robot.joints[to_index(j)];
+        if (joint.friction_loss_nm >= held_share * joint.servo.max_torque_nm && joint.has_motor())
+          by_joint[to_index(j)] =
+              norm(robot::foot_m(robot, leg, poses) - poses[to_index(body)] * joint.anchor_m);
+      }
+  for (const batch::Link& link : model.links) by_link.push_back(by_joint[to_index(link.joint)]);
+  return by_link;
 }
 
 /// Sixteen robots that follow sine waves, advanced with as many sweeps as are allowed.
@@ -34,7 +56,8 @@ class Probe {
         workspace_(model_),
         now_(model_, rows_),
         next_(model_, rows_),
-        targets_rad_(rows_.links, batch::lanes) {
+        targets_rad_(rows_.links, batch::lanes),
+        levers_m_(held_levers_m(robot, model_)) {
     const auto engine = make_batch_engine(robot, {.timestep_s = timestep_s});
     for (int lane = 0; lane < batch::lanes; ++lane) {
       engine->place(lane);
@@ -59,7 +82,12 @@ class Probe {
     int count = 0;
     for (int lane = 0; lane < batch::lanes; ++lane) {
       if (now_.at(StateRows::contacts, lane) == 0.0f || next_.at(StateRows::healthy, lane) == 0.0f) continue;
-      sum += norm(other.vec3(StateRows::velocity, lane) - next_.vec3(StateRows::velocity, lane));
+      double most_m_s = norm(other.vec3(StateRows::velocity, lane) - next_.vec3(StateRows::velocity, lane));
+      for (std::size_t link = 0; link < levers_m_.size(); ++link) {
+        const int row = rows_.speed + static_cast<int>(link);
+        most_m_s = std::max(most_m_s, levers_m_[link] * std::abs(other.at(row, lane) - next_.at(row, lane)));
+      }
+      sum += most_m_s;
       ++count;
     }
     return count;
@@ -112,6 +140,7 @@ class Probe {
   batch::Workspace workspace_;
   LockstepState now_, next_;
   LaneArray targets_rad_;
+  const std::vector<double> levers_m_;  ///< by link
   int tick_ = 0;
 };
 

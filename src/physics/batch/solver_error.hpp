@@ -9,9 +9,10 @@ namespace amble::physics {
 
 /// Mean difference between the velocity of the centre of mass after a step of the batch engine and after the
 /// same step with robot::most_sweeps sweeps, m/s, for each number of `sweeps`: of sixteen robots that follow
-/// sine waves from their start pose for a second, while they touch the ground. The paper's quadruped has
-/// 0.001 with its own number. Where it is much more, gaits exploit the solver's residual error. Throws
-/// UserError as make_batch_engine() does.
+/// sine waves from their start pose for a second, while they touch the ground. If dry friction of at least
+/// half of a motor's torque holds a joint of a leg, the difference between its speeds, times the way to the
+/// foot, where that is more. The paper's quadruped has 0.001 with its own number. Where it is much more,
+/// gaits exploit the solver's residual error. Throws UserError as make_batch_engine() does.
 std::vector<double> solver_errors_m_s(const robot::RobotSpec& robot, double timestep_s,
                                       std::span<const int> sweeps);
 
