@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "amble/core/check.hpp"
 
@@ -19,14 +20,22 @@ Eigen::Index size_of(const std::vector<double>& values) {
 
 }  // namespace
 
-GaussianProcess::GaussianProcess(std::size_t dimensions, double length_scale, double noise_variance)
-    : dimensions_(dimensions), length_scale_(length_scale), noise_variance_(noise_variance) {
+GaussianProcess::GaussianProcess(std::size_t dimensions, double length_scale, double noise_variance,
+                                 std::vector<double> turns)
+    : dimensions_(dimensions),
+      length_scale_(length_scale),
+      noise_variance_(noise_variance),
+      turns_(std::move(turns)) {
   AMBLE_CHECK(dimensions > 0 && length_scale > 0.0 && noise_variance > 0.0, "a kernel that can be factored");
 }
 
 double GaussianProcess::kernel(std::span<const double> a, std::span<const double> b) const {
   double squared = 0.0;
-  for (std::size_t i = 0; i < dimensions_; ++i) squared += (a[i] - b[i]) * (a[i] - b[i]);
+  for (std::size_t i = 0; i < dimensions_; ++i) {
+    double difference = a[i] - b[i];
+    if (!turns_.empty() && turns_[i] > 0.0) difference = std::remainder(difference, turns_[i]);
+    squared += difference * difference;
+  }
   const double scaled = std::sqrt(5.0 * squared) / length_scale_;
   return (1.0 + scaled + scaled * scaled / 3.0) * std::exp(-scaled);
 }

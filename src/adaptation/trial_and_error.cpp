@@ -13,7 +13,7 @@ TrialAndError::TrialAndError(std::vector<Candidate> candidates, const TrialAndEr
       settings_(settings),
       unit_(candidates_.empty() ? 0.0 : std::ranges::max(candidates_, {}, &Candidate::expected).expected),
       process_(candidates_.empty() ? 1 : candidates_.front().descriptor.size(), settings.length_scale,
-               settings.noise_variance),
+               settings.noise_variance, settings.turns),
       deviation_(candidates_.size(), 1.0) {
   AMBLE_CHECK(unit_ > 0.0, "a candidate of which something is expected");
   mean_.reserve(candidates_.size());

@@ -22,6 +22,8 @@ struct TrialAndErrorSettings {
   double noise_variance = 0.001;
   double exploration = 0.05;  ///< κ of the upper confidence bound
   double stop_share = 0.9;    ///< α: stop when what was tried is predicted to reach this share of the best
+  /// Of each number of a descriptor what a full turn is, the same again; 0: none. Empty: of none.
+  std::vector<double> turns = {};
 };
 
 /// Intelligent trial and error (Cully, Clune, Tarapore & Mouret 2015): a Gaussian process learns how the

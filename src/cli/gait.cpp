@@ -44,7 +44,7 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
 }
 
 std::optional<gait::Report> measure(const GaitOptions& options) {
-  if (fs::is_directory(options.path) || options.path.extension() == ".json")
+  if (fs::is_directory(options.path) || experiment::is_no_recording(options.path))
     return champion_gait(experiment::champion_at(options.path), options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
   if (options.disturbance.asked() || options.disturbance.undisturbed)

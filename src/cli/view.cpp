@@ -85,7 +85,7 @@ ExitCode make_view(const ViewOptions& options) {
   const auto inputs =
       options.of_all.history ? presentation::champions_of_history(options.inputs.front()) : options.inputs;
   for (const fs::path& input : inputs)
-    if (fs::is_directory(input) || input.extension() == ".json")
+    if (fs::is_directory(input) || experiment::is_no_recording(input))
       add_champion(page, input, options.of_all.walk.seconds);
     else
       add_recording(page, input, options);

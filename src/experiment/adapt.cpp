@@ -12,6 +12,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/io/text.hpp"
 #include "amble/neat/genome_io.hpp"
+#include "amble/search/map_elites.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -84,7 +85,11 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
          settings.episodes);
   Reality intact(repertoire, settings.engine, repertoire.problem.damage, jobs);
   Reality damaged(repertoire, settings.engine, settings.damage, jobs);
-  adaptation::TrialAndError search(candidates_of(repertoire), settings.search);
+  adaptation::TrialAndErrorSettings how = settings.search;
+  auto circles = repertoire.config.make_behaviour()->circles();
+  circles.resize(repertoire.config.search.map_elites.descriptors.size());
+  how.turns = search::turns_of(repertoire.config.search.map_elites, circles);
+  adaptation::TrialAndError search(candidates_of(repertoire), how);
   Adaptation adaptation;
   const auto best = static_cast<std::uint32_t>(search.next());
   while (adaptation.steps.size() < static_cast<std::size_t>(settings.most_trials) && !search.done()) {

@@ -198,7 +198,10 @@ std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::
                        io::shell_word((folder / run).string()));
   };
   if (written.ready) {
-    fmt::format_to(out, "next: read {}, then\n{}\n", file, command(written.config_file, "run"));
+    fmt::format_to(out, "next: read {}, look at the robot, and evolve it\n  amble robot {} --draw {}\n{}\n",
+                   file, io::shell_word(file),
+                   io::shell_word(fs::path(file).replace_extension(".svg").string()),
+                   command(written.config_file, "run"));
     if (!written.steer_file.empty())
       fmt::format_to(out, "or, to tell it where to go:\n{}\n", command(written.steer_file, "steered"));
   } else {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 #include <string>
@@ -26,6 +27,22 @@ namespace {
 
 std::string champion_name(int generation) {
   return fmt::format("{:05}.json", generation);
+}
+
+/// What runs are made of is easily named in their place.
+bool is_source(const fs::path& path) {
+  constexpr std::array<std::string_view, 3> kinds{".toml", ".xml", ".urdf"};
+  std::error_code none;
+  return std::ranges::find(kinds, path.extension().string()) != kinds.end() &&
+         fs::is_regular_file(path, none);
+}
+
+void refuse_sources(const fs::path& path) {
+  if (is_source(path))
+    fail(ExitCode::bad_input,
+         "{}: what a run is made of, and no walker; expected a run folder or the file of a champion. A robot "
+         "is drawn by amble robot FILE --draw ROBOT.svg",
+         path.string());
 }
 
 /// Of a folder that is no run's.
@@ -74,11 +91,20 @@ std::vector<fs::path> RunPaths::champion_files() const {
 
 fs::path RunPaths::best_champion() const {
   const auto files = champion_files();
+  std::error_code none;
+  if (files.empty() && fs::exists(checkpoint, none))
+    fail(ExitCode::bad_input, "{}: generations are done, and {} has no champion: was it emptied?",
+         folder.string(), champions.string());
   if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
   return files.back();
 }
 
+bool is_no_recording(const std::filesystem::path& file) {
+  return file.extension() == ".json" || is_source(file);
+}
+
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
+  refuse_sources(champion_or_run);
   if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
   return find_run(champion_or_run).best_champion();
 }

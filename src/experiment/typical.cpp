@@ -71,9 +71,13 @@ std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genom
 std::string typical_text(const score::Typical& typical, const score::Settings& score, double seconds,
                          const std::string& under) {
   const auto text = [&score](double value) { return score::with_unit(fmt::format("{:.2f}", value), score); };
-  return fmt::format("typically {} in {:g} s: half of {} trials {} {:.2f} to {}, {:.0f} % fell (luckiest {})",
-                     text(typical.median), seconds, typical.trials, under, typical.lower_quartile,
-                     text(typical.upper_quartile), 100.0 * typical.fell_share, text(typical.best));
+  if (typical.trials == 1)
+    return fmt::format("{} in {:.10g} s, in one trial {}{}", text(typical.median), seconds, under,
+                       typical.fell_share > 0.0 ? ", and fell" : "");
+  return fmt::format(
+      "typically {} in {:.10g} s: half of {} trials {} {:.2f} to {}, {:.0f} % fell (luckiest {})",
+      text(typical.median), seconds, typical.trials, under, typical.lower_quartile,
+      text(typical.upper_quartile), 100.0 * typical.fell_share, text(typical.best));
 }
 
 }  // namespace amble::experiment

@@ -11,15 +11,20 @@
 namespace amble::search {
 namespace {
 
-double squared_distance(std::span<const double> a, std::span<const double> b) {
+double squared_distance(std::span<const double> a, std::span<const double> b, std::span<const double> turns) {
   double squares = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double difference = a[i] - b[i];
+    if (!turns.empty() && turns[i] > 0.0) difference = std::remainder(difference, turns[i]);
+    squares += difference * difference;
+  }
   return squares;
 }
 
 }  // namespace
 
-std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours) {
+std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours,
+                                      std::span<const double> turns) {
   std::vector<double> novelties;
   std::vector<double> nearest;  // squared distances, rising
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -29,7 +34,7 @@ std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::
       const bool dominates = members[j].objective > members[i].objective ||
                              (members[j].objective == members[i].objective && j < i);
       if (!dominates) continue;
-      const double squares = squared_distance(members[i].descriptor, members[j].descriptor);
+      const double squares = squared_distance(members[i].descriptor, members[j].descriptor, turns);
       if (nearest.size() == neighbours && !(squares < nearest.back())) continue;
       nearest.insert(std::ranges::upper_bound(nearest, squares), squares);
       if (nearest.size() > neighbours) nearest.pop_back();
@@ -44,7 +49,7 @@ std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::
 
 void DominatedPool::add(std::vector<PoolMember> members) {
   std::ranges::move(members, std::back_inserter(members_));
-  const std::vector<double> novelties = dominated_novelty(members_, neighbours_);
+  const std::vector<double> novelties = dominated_novelty(members_, neighbours_, turns_);
   std::vector<std::size_t> order(members_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/io/binary.hpp"
@@ -18,14 +19,18 @@ struct PoolMember {
 
 /// Dominated novelty of each (Bahlous-Boldi et al., "Dominated Novelty Search", arXiv 2502.00593): the mean
 /// distance of its descriptor to the `neighbours` nearest that are better, or as good and before it; of
-/// fewer, if there are no more. Infinite for the first of the best.
-std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours);
+/// fewer, if there are no more. Infinite for the first of the best. `turns`: of each number of the descriptor
+/// what a full turn is, the same again; 0 where there is none; empty: of none.
+std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours,
+                                      std::span<const double> turns = {});
 
 /// The genomes with the largest dominated novelty of all that were added: the population of that search,
 /// without cells or bounds.
 class DominatedPool {
  public:
-  DominatedPool(std::size_t size, std::size_t neighbours) : size_(size), neighbours_(neighbours) {}
+  /// `turns` as in dominated_novelty().
+  DominatedPool(std::size_t size, std::size_t neighbours, std::vector<double> turns = {})
+      : size_(size), neighbours_(neighbours), turns_(std::move(turns)) {}
 
   std::span<const PoolMember> members() const { return members_; }
   /// Keeps the best of those in the pool and these; of equal ones those that came first.
@@ -37,6 +42,7 @@ class DominatedPool {
 
  private:
   std::size_t size_, neighbours_;
+  std::vector<double> turns_;
   std::vector<PoolMember> members_;
 };
 

@@ -28,6 +28,15 @@ double mean_with(double before, double last, std::uint32_t count) {
 
 }  // namespace
 
+std::vector<double> turns_of(const MapElitesSettings& settings, std::span<const Circle> circles) {
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    const DescriptorSettings& range = settings.descriptors[i];
+    turns.push_back(circles[i].turn / (range.most - range.least));
+  }
+  return turns;
+}
+
 MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space)
     : settings_(settings),
       neat_(space.neat),
@@ -44,7 +53,8 @@ MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space
   circles_.resize(settings.descriptors.size());
   if (settings.variation == Variation::cma) emitters_.emplace(settings, space, cells_->count());
   if (settings.select == Selection::dominated)
-    pool_.emplace(to_index(settings.pool.size), to_index(settings.pool.neighbours));
+    pool_.emplace(to_index(settings.pool.size), to_index(settings.pool.neighbours),
+                  turns_of(settings, circles_));
   breed();
 }
 

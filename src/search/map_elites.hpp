@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@
 #include "amble/search/strategy.hpp"
 
 namespace amble::search {
+
+/// A full turn of each descriptor, in parts of its range; 0 where it is none of a circle. As many circles as
+/// descriptors.
+std::vector<double> turns_of(const MapElitesSettings& settings, std::span<const Circle> circles);
 
 /// MAP-Elites (Mouret & Clune 2015) with NEAT's genomes: keeps the best genome of each cell of a map over
 /// descriptors (Evaluation::behaviour). A round is a batch: random genomes at first, then mutated copies of

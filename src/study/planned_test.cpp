@@ -69,11 +69,8 @@ experiment::Config config_of(const ledger::StudySpec& study, std::size_t index, 
   try {
     return experiment::load_config(file, {});
   } catch (const UserError& error) {
-    const std::string_view mistake = error.what();
-    const bool lacks_robot = mistake.find("'robot' = \"\"") != std::string_view::npos;
     throw study.error_at(key_of("tests", index, key),
-                         fmt::format("'{}': {}{}", key_of("tests", index, key), mistake,
-                                     lacks_robot ? ", as in a config that it may include" : ""));
+                         fmt::format("'{}': {}", key_of("tests", index, key), error.what()));
   }
 }
 

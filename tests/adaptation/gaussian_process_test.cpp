@@ -42,6 +42,15 @@ TEST(GaussianProcess, WithOneObservationIsTheClosedForm) {
   }
 }
 
+TEST(GaussianProcess, GoesTheShortWayRoundWhereADimensionIsACircle) {
+  GaussianProcess process(2, 0.4, 0.1, {0.0, 1.0});
+  process.observe(Point{0.2, 0.05}, 3.0);
+  EXPECT_NEAR(process.predict(Point{0.3, 0.95}).mean, 3.0 * matern({0.2, 0.05}, {0.3, -0.05}, 0.4) / 1.1,
+              1e-14);
+  EXPECT_NEAR(process.predict(Point{0.95, 0.05}).mean, 3.0 * matern({0.2, 0.05}, {0.95, 0.05}, 0.4) / 1.1,
+              1e-14);
+}
+
 TEST(GaussianProcess, WithTwoObservationsIsTheClosedForm) {
   const Point a{0.1}, b{0.4}, x{0.3};
   GaussianProcess process(1, 0.5, 0.05);

@@ -171,8 +171,12 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
   EXPECT_NE(trial({"--episode", "1", "--ground", rough}), trial({"--episode", "1"}));
 
   EXPECT_NE(trial({"--damage", "missing:FL"}), trial({}));
-  EXPECT_EQ(trial({"--damage", "numb:FL@100"}), trial({}));
-  EXPECT_EQ(trial({"--damage", rough}), trial({})) << "a config without damage";
+  EXPECT_EQ(trial({"--damage", "none"}), trial({}));
+  const auto refusal = [&](const std::string& damage) {
+    return amble({"trial", champion, "--seconds", "2", "--damage", damage}).err;
+  };
+  EXPECT_NE(refusal("numb:FL@100").find("the trial is 2 s long, and has ended by then"), std::string::npos);
+  EXPECT_NE(refusal(rough).find("the config has no [damage]"), std::string::npos);
   const auto unknown = amble({"trial", champion, "--damage", "missing:FX"});
   EXPECT_EQ(unknown.exit_code, static_cast<int>(ExitCode::bad_input));
   EXPECT_NE(unknown.err.find("the robot has no such leg"), std::string::npos) << unknown.err;

@@ -72,6 +72,12 @@ TEST(DominatedNovelty, IsWhatLookingAtAllDistancesGives) {
   }
 }
 
+TEST(DominatedNovelty, OfAnAngleIsTheDistanceTheShortWayRound) {
+  const std::vector members{member(1.0, {0.0, 0.05}), member(0.0, {0.0, 0.95})};
+  EXPECT_NEAR(dominated_novelty(members, 1)[1], 0.9, 1e-12);
+  EXPECT_NEAR(dominated_novelty(members, 1, std::vector{0.0, 1.0})[1], 0.1, 1e-12);
+}
+
 TEST(DominatedPool, KeepsTheBestAndWhatIsUnlikeAllBetterOnes) {
   DominatedPool pool(2, 3);
   pool.add({member(3.0, {0.5}), member(2.9, {0.51}), member(0.1, {0.9})});

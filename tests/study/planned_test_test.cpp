@@ -94,8 +94,8 @@ TEST(PlannedTest, AMistakeInAFileThatItNamesIsToldWithBothPlaces) {
   EXPECT_THAT(refusal(), testing::StartsWith("s.toml, at tests[0].damage: 'tests[0].damage': " + file +
                                              ":2: unknown key 'damage.kind'"));
   io::write_file(file, "[damage]\n");
-  EXPECT_THAT(refusal(), testing::EndsWith("expected the path of a robot file, as in a config that it may "
-                                           "include"));
+  EXPECT_THAT(refusal(), testing::EndsWith("expected the path of a robot file, as in a config that may "
+                                           "include this one"));
 }
 
 TEST(PlannedTest, HasNoDamageThatBeginsWhenItHasEnded) {

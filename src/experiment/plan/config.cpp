@@ -83,7 +83,10 @@ trial::EpisodeScore ChampionSettings::episode_score(trial::EpisodeScore of_evolu
 }
 
 void Config::validate() const {
-  if (robot.empty()) fail_setting({"robot"}, "'robot' = \"\": expected the path of a robot file");
+  if (robot.empty())
+    fail_setting(
+        {"robot"},
+        "'robot' = \"\": expected the path of a robot file, as in a config that may include this one");
   if (!physics::is_engine(engine))
     fail_setting({"engine"}, "'engine' = \"{}\": expected {}", engine,
                  fmt::join(physics::engine_names(), ", "));
