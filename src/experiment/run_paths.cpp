@@ -29,22 +29,6 @@ std::string champion_name(int generation) {
   return fmt::format("{:05}.json", generation);
 }
 
-/// What runs are made of is easily named in their place.
-bool is_source(const fs::path& path) {
-  constexpr std::array<std::string_view, 3> kinds{".toml", ".xml", ".urdf"};
-  std::error_code none;
-  return std::ranges::find(kinds, path.extension().string()) != kinds.end() &&
-         fs::is_regular_file(path, none);
-}
-
-void refuse_sources(const fs::path& path) {
-  if (is_source(path))
-    fail(ExitCode::bad_input,
-         "{}: what a run is made of, and no walker; expected a run folder or the file of a champion. A robot "
-         "is drawn by amble robot FILE --draw ROBOT.svg",
-         path.string());
-}
-
 /// Of a folder that is no run's.
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "study.toml"))
@@ -99,12 +83,18 @@ fs::path RunPaths::best_champion() const {
   return files.back();
 }
 
+bool is_source(const fs::path& path) {
+  constexpr std::array<std::string_view, 3> kinds{".toml", ".xml", ".urdf"};
+  std::error_code none;
+  return std::ranges::find(kinds, path.extension().string()) != kinds.end() &&
+         fs::is_regular_file(path, none);
+}
+
 bool is_no_recording(const std::filesystem::path& file) {
   return file.extension() == ".json" || is_source(file);
 }
 
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
-  refuse_sources(champion_or_run);
   if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
   return find_run(champion_or_run).best_champion();
 }

@@ -283,6 +283,10 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
                  "expected --command as well");
   expect_refusal({"trial", champion, "--command", "nowhere.toml"}, ExitCode::bad_input,
                  "there is no file nowhere.toml");
+  const std::string robot = AMBLE_SOURCE_DIR "/robots/hexapod/hexapod.toml";
+  for (const char* const command : {"trial", "gait"})
+    expect_refusal({command, robot}, ExitCode::bad_input, "what a run is made of, and no walker");
+  expect_refusal({"view", robot, "-o", scratch_ / "page.html"}, ExitCode::bad_input, "and no walker");
   expect_refusal({"trial", champion, "--damage", ""}, ExitCode::bad_input,
                  "--damage: expected a config file");
   for (const std::string command : {"trial", "gait", "compare"})
