@@ -283,6 +283,7 @@ std::vector<std::string> doubts(const RobotSpec& robot) {
   doubt_strength(robot, lines);
   doubt_held_joints(robot, lines);
   doubt_axes(robot, lines);
+  doubt_wheels(robot, lines);
   doubt_friction(robot, lines);
   doubt_stops(robot, lines);
   doubt_narrow_stops(robot, lines);

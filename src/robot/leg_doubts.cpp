@@ -119,4 +119,25 @@ void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines) {
         io::first_few(idle)));
 }
 
+void doubt_wheels(const RobotSpec& robot, std::vector<std::string>& lines) {
+  constexpr double at_centre_share = 0.3;
+  const std::vector<Pose> poses = start_poses(robot);
+  std::vector<std::string> wheels;
+  for (const Leg& leg : robot.legs)
+    for (const int j : leg.joints) {
+      if (j < 0) continue;
+      const Joint& joint = robot.joints[to_index(j)];
+      const Geom& foot = robot.geoms[to_index(leg.foot_geoms.front())];
+      const bool is_round = foot.shape == Shape::cylinder || foot.shape == Shape::sphere;
+      if (std::isinf(joint.upper_rad - joint.lower_rad) && joint.body == foot.body && is_round &&
+          passes_foot_m(robot, leg, joint, poses) < at_centre_share * foot.size_m.x)
+        wheels.push_back(joint.name);
+    }
+  if (!wheels.empty())
+    lines.push_back(
+        fmt::format("wheels do not roll here: servos turn joints to angles within their range of "
+                    "command, and no farther: {}",
+                    io::first_few(wheels)));
+}
+
 }  // namespace amble::robot

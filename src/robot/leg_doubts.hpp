@@ -37,4 +37,7 @@ void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines);
 /// so that they only spin what hangs on them. A joint near its foot (an ankle, a wheel) may do so.
 void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines);
 
+/// Adds a line on joints without stops at which a round foot turns about its middle.
+void doubt_wheels(const RobotSpec& robot, std::vector<std::string>& lines);
+
 }  // namespace amble::robot

@@ -189,6 +189,27 @@ TEST(Doubts, MotorsMoveTheirJointsAgainstFrictionDampingAndRotors) {
   EXPECT_TRUE(says(0.0, 0.0, 5.0, "(1.3 s)"));
 }
 
+TEST(Doubts, WheelsDoNotRoll) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const auto says = [](double off_m, double stop_rad) {
+    RobotSpec robot = tests::legged_robot(2);
+    const auto g = static_cast<std::size_t>(robot.legs[0].foot_geoms.front());
+    robot.geoms[g].shape = Shape::sphere;
+    robot.geoms[g].size_m = {0.05, 0.0, 0.0};
+    for (Joint& joint : robot.joints) {
+      if (joint.body != robot.geoms[g].body) continue;
+      robot.geoms[g].position_m = joint.anchor_m + Vec3{off_m, 0.0, 0.0};
+      joint.lower_rad = -stop_rad;
+      joint.upper_rad = stop_rad;
+      joint.axis = {0.0, 1.0, 0.0};
+    }
+    return testing::Matches(testing::Contains(HasSubstr("wheels do not roll")))(doubts(robot));
+  };
+  EXPECT_TRUE(says(0.0, none));
+  EXPECT_FALSE(says(0.1, none));
+  EXPECT_FALSE(says(0.0, 1.0));
+}
+
 TEST(Doubts, StopsAreInRadians) {
   RobotSpec robot = tests::legged_robot(2);
   const auto says = [&](double lower, double upper) {
