@@ -1,6 +1,7 @@
 #include "amble/experiment/gait_observer.hpp"
 
 #include "amble/robot/pose.hpp"
+#include "amble/trial/observers.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -29,8 +30,10 @@ GaitObserver::GaitObserver(const Problem& problem, const gait::Settings& setting
 
 void GaitObserver::on_start(const physics::Engine& engine, int lane) {
   const Vec3 com_m = engine.com_m(lane);
-  if (!robot::starts_elsewhere(com_m, body_.com_start_m)) return;
-  body_.com_start_m = com_m;
+  const bool elsewhere = robot::starts_elsewhere(com_m, body_.com_start_m);
+  body_.angle_start_rad = trial::bent_start(engine.sensors().joint_angle_rad, lane);
+  if (!elsewhere && body_.angle_start_rad.empty()) return;
+  if (elsewhere) body_.com_start_m = com_m;
   meter_ = gait::Meter(body_, timestep_s_, settings_);
 }
 

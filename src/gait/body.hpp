@@ -26,6 +26,7 @@ struct Body {
   /// 1984); 0 if no leg has a joint.
   double leg_length_m = 0.0;
   Vec3 com_start_m;
+  std::vector<float> angle_start_rad;  ///< by joint, before the first frame; empty: 0, the start pose
   /// From the positions of the feet in the start pose; none unless there are four, two fore and two hind,
   /// each pair with a left and a right one.
   std::optional<QuadrupedLegs> quadruped;

@@ -71,6 +71,10 @@ std::int64_t frames_in(double seconds, double frame_s) {
   return std::llround(seconds / frame_s);
 }
 
+std::vector<float> start_of(const Body& body) {
+  return body.angle_start_rad.empty() ? std::vector<float>(body.joints.size()) : body.angle_start_rad;
+}
+
 }  // namespace
 
 Meter::Meter(const Body& body, double frame_s, const Settings& settings)
@@ -79,7 +83,7 @@ Meter::Meter(const Body& body, double frame_s, const Settings& settings)
       settings_(valid(settings)),
       transient_frames_(frames_in(settings.transient_s, frame_s)),
       window_frames_(std::max<std::int64_t>(1, frames_in(settings.window_s, frame_s))),
-      travel_(body.com_start_m, body.joints.size(), frame_s),
+      travel_(body.com_start_m, start_of(body), frame_s),
       raw_touch_(body.legs.size()),
       raw_touchdowns_(body.legs.size()),
       filters_(body.legs.size(), ContactFilter(static_cast<int>(frames_in(settings.debounce_s, frame_s)))),

@@ -65,6 +65,8 @@ Report recorded_gait(record::RecordingReader& reader, const std::string& what, c
   Body body = body_of(robot);
   if (const auto& start = reader.header().com_start_m)
     body.com_start_m = {(*start)[0], (*start)[1], (*start)[2]};
+  if (reader.header().angle_start_rad.size() == body.joints.size())
+    body.angle_start_rad = reader.header().angle_start_rad;
   body.mass_kg = reader.header().mass_kg.value_or(body.mass_kg);
   Columns com(reader, "com.", {"x", "y", "z"}), touch(reader, "touch.", body.legs),
       angle(reader, "angle.", body.joints);

@@ -14,13 +14,13 @@ double over_ground_m(Vec3 from, Vec3 to) {
 
 }  // namespace
 
-TravelMeter::TravelMeter(Vec3 com_start_m, std::size_t joints, double frame_s)
+TravelMeter::TravelMeter(Vec3 com_start_m, std::span<const float> angle_start_rad, double frame_s)
     : frames_per_leg_of_path_(std::max<std::int64_t>(1, std::llround(1.0 / frame_s))),
       start_m_(com_start_m),
       path_point_m_(com_start_m),
       com_m_(com_start_m),
-      angle_rad_(joints),
-      turned_rad_(joints) {}
+      angle_rad_(angle_start_rad.begin(), angle_start_rad.end()),
+      turned_rad_(angle_start_rad.size()) {}
 
 void TravelMeter::add(Vec3 com_m, std::span<const float> angle_rad, std::span<const float> torque_nm) {
   com_m_ = com_m;

@@ -18,7 +18,8 @@ struct MotorWork {
 /// The distance a robot travels and the work of its motors, frame by frame.
 class TravelMeter {
  public:
-  TravelMeter(Vec3 com_start_m, std::size_t joints, double frame_s);
+  /// `angle_start_rad`: by joint, before the first frame.
+  TravelMeter(Vec3 com_start_m, std::span<const float> angle_start_rad, double frame_s);
 
   /// The next frame: centre of mass, joint angles and the motors' torques in the step. If any frame has no
   /// torques (an empty span), there is no work().
@@ -40,7 +41,7 @@ class TravelMeter {
   double path_m_ = 0.0;
   MotorWork work_;
   bool torques_known_ = true;
-  std::vector<double> angle_rad_;   ///< in the frame before; in the start pose all are 0
+  std::vector<double> angle_rad_;   ///< in the frame before
   std::vector<double> turned_rad_;  ///< in the step before
 };
 

@@ -40,6 +40,12 @@ RecordingHeader parse_header(std::string_view text, const std::string& what) {
     header.com_start_m.emplace();
     for (std::size_t i = 0; i < 3; ++i) (*header.com_start_m)[i] = start.at(i).number();
   }
+  if (view.has("angle_start_rad")) {
+    const io::JsonView start = view.at("angle_start_rad");
+    if (start.size() > column_limit) start.bad("an angle for each joint");
+    for (std::size_t i = 0; i < start.size(); ++i)
+      header.angle_start_rad.push_back(static_cast<float>(start.at(i).number()));
+  }
   if (view.has("mass_kg")) header.mass_kg = view.at("mass_kg").number();
   header.origin = view.at("origin").text();
   return header;
@@ -59,6 +65,7 @@ std::string header_json(const RecordingHeader& header) {
   if (!header.damage_json.empty())
     json["damage"] = io::parse_json(header.damage_json, "damage of a recording");
   if (header.com_start_m) json["com_start_m"] = *header.com_start_m;
+  if (!header.angle_start_rad.empty()) json["angle_start_rad"] = header.angle_start_rad;
   if (header.mass_kg) json["mass_kg"] = *header.mass_kg;
   json["origin"] = header.origin;
   return io::json_text(json);

@@ -22,8 +22,10 @@ struct RecordingHeader {
   std::string origin;                ///< the champion it was made from, for titles
   std::string ground_json = {};      ///< ground::to_json of uneven ground; empty: the plane z = 0
   std::string damage_json = {};      ///< damage::Settings of a damaged robot; `robot_json` is intact
-  /// Centre of mass before the first step, and mass, where the robot does not begin as `robot_json` says.
+  /// Centre of mass and joint angles before the first step, and mass, where the robot does not begin as
+  /// `robot_json` says.
   std::optional<std::array<double, 3>> com_start_m = {};
+  std::vector<float> angle_start_rad = {};  ///< by joint; empty: as there, 0
   std::optional<double> mass_kg = {};
 };
 

@@ -1,6 +1,8 @@
 #include "amble/trial/observers.hpp"
 
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/robot/pose.hpp"
@@ -45,6 +47,17 @@ void EventObserver::on_step(int, const physics::Engine&, const controllers::Batc
   for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i].count += state_[columns_[i]] > 0.5f;
 }
 
+std::vector<float> bent_start(const LaneArray& angle_rad, int lane) {
+  constexpr float rounding_rad = 1e-7f;
+  std::vector<float> angles_rad;
+  bool is_bent = false;
+  for (int joint = 0; joint < angle_rad.rows(); ++joint) {
+    angles_rad.push_back(angle_rad.at(joint, lane));
+    is_bent = is_bent || std::abs(angles_rad.back()) > rounding_rad;
+  }
+  return is_bent ? angles_rad : std::vector<float>();
+}
+
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                                      const robot::RobotSpec& robot, const physics::Engine& engine,
                                      const controllers::Batch& controllers, const CommandSchedule* commands)
@@ -57,6 +70,7 @@ RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::
 void RecordingObserver::on_start(const physics::Engine& engine, int lane) {
   const Vec3 com_m = engine.com_m(lane);
   if (robot::starts_elsewhere(com_m, com_start_m_)) header_.com_start_m = {com_m.x, com_m.y, com_m.z};
+  header_.angle_start_rad = bent_start(engine.sensors().joint_angle_rad, lane);
   writer_.emplace(path_, header_);
 }
 

@@ -39,6 +39,9 @@ class EventObserver : public Observer {
   std::vector<float> state_;
 };
 
+/// The joint angles of a lane; empty if they are those of the start pose, 0.
+std::vector<float> bent_start(const LaneArray& angle_rad, int lane);
+
 /// Writes every step of a trial to a recording (record/recording.hpp).
 class RecordingObserver : public Observer {
  public:
