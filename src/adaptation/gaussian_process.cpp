@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/circle.hpp"
 
 namespace amble::adaptation {
 namespace {
@@ -30,13 +31,7 @@ GaussianProcess::GaussianProcess(std::size_t dimensions, double length_scale, do
 }
 
 double GaussianProcess::kernel(std::span<const double> a, std::span<const double> b) const {
-  double squared = 0.0;
-  for (std::size_t i = 0; i < dimensions_; ++i) {
-    double difference = a[i] - b[i];
-    if (!turns_.empty() && turns_[i] > 0.0) difference = std::remainder(difference, turns_[i]);
-    squared += difference * difference;
-  }
-  const double scaled = std::sqrt(5.0 * squared) / length_scale_;
+  const double scaled = std::sqrt(5.0 * squared_distance(a, b, turns_)) / length_scale_;
   return (1.0 + scaled + scaled * scaled / 3.0) * std::exp(-scaled);
 }
 

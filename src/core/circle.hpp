@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace amble {
 
@@ -19,5 +21,18 @@ struct Circle {
     return value < lowest ? value + turn : value - turn;
   }
 };
+
+/// Between two points, the short way round in dimensions of which a full turn is given. `turns`: of each
+/// dimension, 0 of a line; empty: all are lines.
+inline double squared_distance(std::span<const double> a, std::span<const double> b,
+                               std::span<const double> turns) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    double difference = a[i] - b[i];
+    if (!turns.empty() && turns[i] > 0.0) difference = std::remainder(difference, turns[i]);
+    squared += difference * difference;
+  }
+  return squared;
+}
 
 }  // namespace amble

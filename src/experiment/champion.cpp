@@ -12,9 +12,8 @@ namespace amble::experiment {
 Champion load_champion(const std::filesystem::path& path) {
   if (is_source(path))
     fail(ExitCode::bad_input,
-         "{}: what a run is made of, and no walker; expected a run folder or the file of a champion. A robot "
-         "is "
-         "drawn by amble robot FILE --draw ROBOT.svg",
+         "{}: what a run is made of, and no walker; expected a run folder or the file of a champion. A "
+         "robot is drawn by amble robot FILE --draw ROBOT.svg",
          path.string());
   const std::string text = io::read_file(path);
   if (text.starts_with(record::recording_magic))

@@ -7,7 +7,6 @@
 #include <deque>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "amble/controllers/sensing.hpp"
@@ -87,8 +86,7 @@ bool is_plane(const Config& config) {
   return !config.ground.has_field();
 }
 
-/// Of tables that every kind of controller and search has.
-constexpr std::array<IdleRule, 23> common_rules = {
+constexpr std::array<IdleRule, 46> idle_rules = {
     {{"population.size", "", is_map_search,
       "search.kind is \"map-elites\", whose rounds have search.map_elites.batch"},
      {"search.map_elites.challenger_share", "",
@@ -142,11 +140,8 @@ constexpr std::array<IdleRule, 23> common_rules = {
      {"ground.vary", "", is_plane, "ground.kind is \"plane\""},
      {"ground.grow_generations", "", is_plane, "ground.kind is \"plane\""},
      {"cppn.passes", "", [](const Config& config) { return !config.cppn.recurrent; },
-      "cppn.recurrent is false"}}};
-
-/// Of controllers and searches.
-constexpr std::array<IdleRule, 23> idle_rules = {
-    {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
+      "cppn.recurrent is false"},
+     {"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape_by", "",
       [](const Config& config) {
@@ -235,10 +230,9 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
          {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
           idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
       if (reason) idle.push_back(*reason);
-    for (const auto rules : {std::span<const IdleRule>(common_rules), std::span<const IdleRule>(idle_rules)})
-      for (const IdleRule& rule : rules)
-        if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
-          idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
+    for (const IdleRule& rule : idle_rules)
+      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
+        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
   }
   return idle;
 }

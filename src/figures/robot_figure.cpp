@@ -140,8 +140,7 @@ std::string robot_figure(const robot::RobotSpec& robot) {
   }
   draw_scale(svg, {between_px, bottom_px + name_room_px + 10.0}, room_px, px_per_m);
   const double right_px = width_px(FigureSize::wide) - between_px, y_px = bottom_px + name_room_px + 10.0;
-  svg.text({right_px, y_px + 4.0}, Anchor::end, "tiny",
-           "It faces right in the first and the last picture.");
+  svg.text({right_px, y_px + 4.0}, Anchor::end, "tiny", "It faces right in the first and the last picture.");
   return svg.finish();
 }
 

@@ -8,21 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "amble/core/circle.hpp"
+
 namespace amble::search {
-namespace {
-
-double squared_distance(std::span<const double> a, std::span<const double> b, std::span<const double> turns) {
-  double squares = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    double difference = a[i] - b[i];
-    if (!turns.empty() && turns[i] > 0.0) difference = std::remainder(difference, turns[i]);
-    squares += difference * difference;
-  }
-  return squares;
-}
-
-}  // namespace
-
 std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours,
                                       std::span<const double> turns) {
   std::vector<double> novelties;

@@ -76,6 +76,23 @@ std::vector<std::string> idle_of(const std::string& config, const std::vector<st
   return idle_parts(Problem::make(read, load_robot_file(read.robot)));
 }
 
+TEST(IdleAssignments, AreThoseOfAMapThatIsNotFilledSoAndOfScoresAndGroundsThatAreNotThere) {
+  const auto count = [](const std::string& config, const std::vector<std::string>& assignments) {
+    const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};
+    return idle_assignments(load_config(std::string(AMBLE_SOURCE_DIR "/configs/") + config, overrides),
+                            assignments)
+        .size();
+  };
+  const std::string map = "repertoire/quadruped.toml", walk = "authors/supg-objective.toml";
+  EXPECT_EQ(count(map, {"population.size=50", "search.map_elites.pool.size=5", "search.map_elites.cells=9"}),
+            3u);
+  EXPECT_EQ(count(map, {"search.map_elites.select=dominated", "search.map_elites.pool.size=5"}), 0u);
+  EXPECT_EQ(count(walk, {"score.heading_deg=90", "ground.height_m=0.1", "noise.push_interval_s=3"}), 3u);
+  EXPECT_EQ(count(walk, {"score.terms=[{quantity='heading'}]", "score.heading_deg=90", "ground.kind=rough",
+                         "ground.height_m=0.01", "noise.push_m_s=0.1", "noise.push_interval_s=3"}),
+            0u);
+}
+
 TEST(IdleParts, AreScalesOfSensorsThatTheControllerTakesAsTheyAre) {
   const auto idle = [](const std::string& kind, const std::string& of, std::vector<std::string> more = {}) {
     more.push_back("controller.sensing.sensors=[{of='" + of + "', scale=0.5}]");

@@ -216,6 +216,24 @@ TEST(RefuseToReplace, LetsPassWhatIsMissingEmptyOrOfTheSameKind) {
             path.string() + " exists and is not a page that amble wrote: name another file");
 }
 
+TEST(RefuseToReplace, KeepsPagesDrawingsAndScriptsOfOthers) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "mine";
+  const auto refused = [&](const std::string& text, const std::string& beginning) {
+    write_file(path, text);
+    try {
+      refuse_to_replace(path, beginning, "one");
+      return false;
+    } catch (const UserError&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refused("<!DOCTYPE html><title>my home page</title>", "<!DOCTYPE html>"));
+  EXPECT_TRUE(refused("<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "<svg"));
+  EXPECT_TRUE(refused("#!/bin/bash\nrm -r runs\n", "#!/bin/bash"));
+  EXPECT_FALSE(refused("<svg role=\"img\" aria-label=\"a walk\"/>", "<svg"));
+}
+
 TEST(CheckOutput, LetsPassWhatWriteOutputCanWriteAndMakesNothing) {
   const test::TemporaryFolder folder;
   const auto path = folder / "new/of/a.svg";

@@ -303,6 +303,24 @@ TEST(RobotGuess, DoubtsActuatorsThatAreNoServosOfAnAngle) {
   EXPECT_THAT(doubts(R"(position kp="200" forcerange="-5 5")"), Not(HasSubstr("is not held even")));
 }
 
+TEST(RobotGuess, DoubtsShinsWithoutShapesAndWhatTheModelSwitchesOffOrTiesDown) {
+  const Files files;
+  const std::string text = model_of("head").text;
+  const auto doubts = [&](const std::string& model) {
+    std::string all;
+    for (const std::string& doubt : guess(files, {"changed", "xml", model, 4, 8, 1}).doubts)
+      all += doubt + "\n";
+    return all;
+  };
+  const std::string before = doubts(text);
+  for (const char* const what : {"no shape that collides", "disables", "one end is not on the robot"})
+    EXPECT_THAT(before, Not(HasSubstr(what)));
+  EXPECT_THAT(doubts(with(text, "</mujoco>", R"(<option><flag contact="disable"/></option></mujoco>)")),
+              HasSubstr("disables contact"));
+  EXPECT_THAT(doubts(with(text, "</mujoco>", R"(<equality><weld body1="trunk"/></equality></mujoco>)")),
+              HasSubstr("one end is not on the robot, which is free to move"));
+}
+
 TEST(RobotGuess, ReadsSidesFromCodesWithANumberBehind) {
   const Files files;
   const auto of = [&](const char* left, const char* right) {

@@ -123,6 +123,19 @@ TEST(StopCounts, AreOfTheWholeTestAndOfClaimsThatCountWalkers) {
   EXPECT_THAT(counts[1].verdicts, Each(Verdict::contradicted));
 }
 
+TEST(StopCounts, AreNoneByRulesWhoseWindowIsLongerThanTheTest) {
+  StudyData data = walking_study();
+  data.study.claims.clear();
+  for (ledger::Record& run : data.records) {
+    run.champion["trial"]["duration_s"] = 15.0;
+    run.tests[0].trial_s = 25.0;
+  }
+  const auto counts = stop_counts(data);
+  ASSERT_EQ(counts.size(), 1u);
+  for (std::size_t rule = 0; rule < stop_rules.size(); ++rule)
+    EXPECT_EQ(counts[0].runs[rule].has_value(), stop_rules[rule].window_s <= 25.0) << rule;
+}
+
 TEST(StopCounts, AreOfTestsLongerThanTheTrialsOfEvolution) {
   StudyData data = walking_study();
   for (ledger::Record& run : data.records) run.champion["trial"]["duration_s"] = 300.0;

@@ -84,6 +84,14 @@ TEST(Remarks, AreNoneOfAFinishedStudy) {
   EXPECT_THAT(remarks(small_study()), IsEmpty());
 }
 
+TEST(Remarks, TellOfConditionsThatGaveTheSameChampionsWithTheSameSeeds) {
+  StudyData data = small_study();
+  for (ledger::Record& run : data.records) run.champion["genome"] = {{"nodes", run.seed}};
+  EXPECT_THAT(remarks(data), ElementsAre(HasSubstr("Conditions a and b gave the same champions")));
+  data.records.back().champion["genome"] = {{"nodes", "another"}};
+  EXPECT_THAT(remarks(data), IsEmpty());
+}
+
 TEST(Remarks, TellWhatIsMissing) {
   StudyData data = small_study();
   data.records.erase(data.records.begin() + 1);
