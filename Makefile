@@ -85,8 +85,10 @@ bench:
 	PYTHONPATH=build/release/python /usr/bin/python3 -B bench/robots.py build/release/bench/amble_bench
 	build/release/bench/amble_micro
 
+# As root where the folder, or the nearest one above it, may not be written.
 install: build
-	$(SUDO) cmake --install build/release --prefix $(PREFIX)
+	folder=$(PREFIX); while [ ! -e "$$folder" ]; do folder=$$(dirname "$$folder"); done; \
+	if [ -w "$$folder" ]; then sudo=; else sudo=$(SUDO); fi; set -x; $$sudo cmake --install build/release --prefix $(PREFIX)
 
 # The reference of the public headers: build/doxygen/html. A warning is an error.
 doxygen:

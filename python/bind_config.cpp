@@ -18,8 +18,13 @@ std::string number_text(const py::handle& number) {
   return text.cast<std::string>();
 }
 
+constexpr int deepest_nesting = 100;  // of what holds itself
+
 /// A Python value as TOML: true, 3, 0.5, "text", [1, 2].
-std::string toml_of(const py::handle& value, const std::string& key) {
+std::string toml_of(const py::handle& value, const std::string& key, int depth = 0) {
+  if (depth > deepest_nesting)
+    throw py::value_error(
+        fmt::format("overrides: '{}': expected a value nested at most {} deep", key, deepest_nesting));
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return number_text(value);
   if (py::isinstance<py::str>(value))
@@ -28,28 +33,34 @@ std::string toml_of(const py::handle& value, const std::string& key) {
         .cast<std::string>();
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     std::string items;
-    for (const auto& item : value) items += (items.empty() ? "" : ", ") + toml_of(item, key);
+    for (const auto& item : value) items += (items.empty() ? "" : ", ") + toml_of(item, key, depth + 1);
     return "[" + items + "]";
   }
   if (py::isinstance<py::dict>(value)) {
     std::string items;
     for (const auto& [name, item] : value.cast<py::dict>())
-      items += (items.empty() ? "" : ", ") + py::str(name).cast<std::string>() + " = " + toml_of(item, key);
+      items += (items.empty() ? "" : ", ") + py::str(name).cast<std::string>() + " = " +
+               toml_of(item, key, depth + 1);
     return "{" + items + "}";
   }
-  if (PyObject_HasAttrString(value.ptr(), "item") != 0) return toml_of(value.attr("item")(), key);
+  if (PyObject_HasAttrString(value.ptr(), "item") != 0) {
+    const py::object item = value.attr("item")();  // of numpy's long double it is one again
+    if (!py::type::of(item).is(py::type::of(value))) return toml_of(item, key, depth + 1);
+  }
   throw py::type_error(fmt::format("overrides: '{}': expected bool, int, float, str, list or dict, found {}",
                                    key, py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
 }
 
 /// {"population": {"size": 10}} and {"population.size": 10} both give "population.size=10".
 void add_assignments(const py::dict& overrides, const std::string& prefix,
-                     std::vector<std::string>& assignments) {
+                     std::vector<std::string>& assignments, int depth = 0) {
+  if (depth > deepest_nesting)
+    throw py::value_error(fmt::format("overrides: expected tables nested at most {} deep", deepest_nesting));
   for (const auto& [name, value] : overrides) {
     if (!py::isinstance<py::str>(name)) throw py::type_error("overrides: expected keys of type str");
     const std::string key = prefix + name.cast<std::string>();
     if (py::isinstance<py::dict>(value))
-      add_assignments(value.cast<py::dict>(), key + ".", assignments);
+      add_assignments(value.cast<py::dict>(), key + ".", assignments, depth + 1);
     else
       assignments.push_back(key + "=" + toml_of(value, key));
   }

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "amble/core/index.hpp"
@@ -52,6 +54,14 @@ struct Controllers {
         batch->load(lane, *parameters[to_index(lane)]);
         begun[to_index(lane)] = false;
       }
+  }
+  /// Roll, pitch or yaw, or what is taken from them.
+  bool senses_attitude() const {
+    using Kind = substrate::Sensor::Kind;
+    return extra.heading_error ||
+           std::ranges::any_of(
+               std::array{Kind::roll, Kind::pitch, Kind::yaw, Kind::yaw_rate},
+               [this](Kind kind) { return task->problem().architecture->reads({.kind = kind}); });
   }
   /// Rates from this tick's angles, which are in `sensors`, and those of the last. In a lane's first tick
   /// from the start pose, where a trial makes a step before it, and 0 where it does not.
@@ -147,8 +157,7 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
                            const py::object& load_n, const py::object& command) {
   const auto angles = finite_rows(angle_rad, "angle_rad", self.count, self.joints),
              touches = finite_rows(touch, "touch", self.count, self.legs);
-  std::optional<Rows> attitudes;
-  if (!attitude_rad.is_none()) attitudes = finite_rows(attitude_rad, "attitude_rad", self.count, 3);
+  const auto attitudes = rows_if_sensed(attitude_rad, "attitude_rad", self.senses_attitude(), self.count, 3);
   const auto torques = rows_if_sensed(torque_nm, "torque_nm", self.extra.torque, self.count, self.joints),
              loads = rows_if_sensed(load_n, "load_n", self.extra.load, self.count, self.legs),
              commands = rows_if_sensed(command, "command", self.extra.commands(), self.count, 2);
@@ -207,7 +216,7 @@ Joints and legs are in control order (docs/CONVENTIONS.md), as in Robots.)")
           R"(One tick (Config: trial.timestep_s): sensors in, target angles out: [n, joints], rad, a live read-only view.
 
 angle_rad: [n, joints], from the start pose. touch: [n, legs], 1 on the ground, else 0. attitude_rad: [n, 3], roll, pitch
-and yaw of the root (default: 0). torque_nm: [n, joints], load_n: [n, legs], command: [n, 2], speed (m/s) and turn to the left
+and yaw of the root, torque_nm: [n, joints], load_n: [n, legs], command: [n, 2], speed (m/s) and turn to the left
 (rad/s), of controllers that sense them (docs/CONTROLLERS.md); speeds, the yaw rate and the heading error are taken from tick to tick, in the
 first from the start pose where trial.first_command is "after_first_step". All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
       .def("reset", reset_controllers, py::arg("mask") = py::none(),

@@ -178,18 +178,11 @@ py::dict run_trial(const ReadableChampion& self, std::optional<double> seconds,
   return result;
 }
 
-/// Throws UserError for a file in the folder in which a run keeps its champions.
-void refuse_among_champions(const std::filesystem::path& file) {
-  const auto folder = std::filesystem::weakly_canonical(file.parent_path()), run = folder.parent_path();
-  if (experiment::is_run_folder(run) && experiment::RunPaths(run).champions == folder)
-    fail(ExitCode::bad_input, "{}: a run keeps its own champions there: name another folder", file.string());
-}
-
 py::str save_champion(ReadableChampion& self, const py::object& path) {
   const auto file = path_of(path);
   if (file.extension() != ".json")
     throw py::value_error(fmt::format("path: {}: expected a name that ends in .json", file.string()));
-  refuse_among_champions(file);
+  experiment::refuse_among_champions(file);
   io::check_output(file, "{\n  \"format\": \"amble-champion\"", "a champion");
   io::write_output(file, experiment::champion_text(self.value));
   self.path = file;
@@ -223,7 +216,7 @@ py::str export_champion(const ReadableChampion& self, const py::object& path, bo
   if (fixed && ending != ".c") throw py::value_error("fixed: only with a path that ends in .c");
   if (steering && ending == ".xml")
     throw py::value_error("steering: only with a path that ends in .c or .json");
-  refuse_among_champions(file);
+  experiment::refuse_among_champions(file);
   experiment::Champion champion = self.value;
   if (steering) exporting::steer_by_hand(champion, *steering, "steering");
   Interruptible interruptible;
@@ -235,11 +228,12 @@ py::str export_champion(const ReadableChampion& self, const py::object& path, bo
       return;
     }
     const bool json = ending == ".json";
-    io::check_output(file, json ? exporting::export_json_start : "<mujoco",
+    io::check_output(file, json ? exporting::export_json_start : morphology::written_mjcf_start,
                      json ? "a JSON document" : "an MJCF model");
     const std::string text =
         json ? exporting::export_json(champion, interruptible.stop())
-             : morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
+             : morphology::written_mjcf_start +
+                   morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
     if (!text.empty()) io::write_output(file, text);
   });
   return path_text(file);

@@ -12,6 +12,7 @@ import numpy as np
 generations = int(sys.argv[1]) if len(sys.argv) > 1 else 30
 THIGH_M = SHANK_M = 0.14
 TICK_S = 0.01
+LEVEL = np.zeros((60, 3))   # roll, pitch and yaw of the trunks, which these networks feel
 
 
 class Stilts:
@@ -40,7 +41,7 @@ search = amble.Search(amble.load_config(amble.data_folder() / "configs/authors/s
 for generation in range(generations):
     controllers, walkers = amble.Controllers(search, search.ask()), Stilts(60)
     for tick in range(500):
-        walkers.step(controllers.step(walkers.angle_rad, walkers.touch))
+        walkers.step(controllers.step(walkers.angle_rad, walkers.touch, LEVEL))
     fitness = np.maximum(walkers.x_m, 0.0)
     search.tell(fitness)
     print(f"{generation:3}  best {fitness.max():.2f} m, mean {fitness.mean():.2f} m in 5 s")

@@ -31,7 +31,7 @@ GaussianProcess::GaussianProcess(std::size_t dimensions, double length_scale, do
 }
 
 double GaussianProcess::kernel(std::span<const double> a, std::span<const double> b) const {
-  const double scaled = std::sqrt(5.0 * squared_distance(a, b, turns_)) / length_scale_;
+  const double scaled = std::sqrt(5.0 * squared_chord(a, b, turns_)) / length_scale_;
   return (1.0 + scaled + scaled * scaled / 3.0) * std::exp(-scaled);
 }
 

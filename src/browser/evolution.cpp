@@ -12,6 +12,7 @@
 #include "amble/experiment/plan/told_generation.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/population.hpp"
+#include "amble/score/score.hpp"
 #include "amble/search/generational.hpp"
 
 namespace amble::browser {
@@ -169,6 +170,7 @@ std::string Evolution::progress_json() const {
                   {"best", progress_.best},
                   {"median", progress_.median},
                   {"best_so_far", progress_.best_so_far},
+                  {"unit", score::objective_of(of_.problem.score).unit},
                   {"best_generation", progress_.best_generation},
                   {"fell", progress_.fell},
                   {"steps", progress_.steps},

@@ -4,6 +4,7 @@
 
 #include "amble/browser/run.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/score/score.hpp"
 #include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
 #include "amble/search/novelty.hpp"
@@ -68,6 +69,7 @@ std::string Run::progress_json() const {
       {"median", row_.median},
       {"mean", row_.mean},
       {"best_so_far", row_.best_so_far},
+      {"unit", score::objective_of(plan_->config.score).unit},
       {"best_generation", state_.progress.best_generation},
       {"typical", row_.typical.median},
       {"typical_fell", row_.typical.fell_share},

@@ -43,6 +43,7 @@ ExitCode run_export(const ExportOptions& options) {
   check_options(options);
   const fs::path path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
+  if (options.out) experiment::refuse_among_champions(*options.out);
   if (options.steering) exporting::steer_by_hand(champion, *options.steering, "--steering");
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")

@@ -19,6 +19,11 @@ template <typename Number>
 CLI::Validator between(Number lower, Number upper) {
   const auto error = [lower, upper](const std::string& text) {
     Number value{};
+    // The library takes 010 for 8 and 0x10 for 16.
+    const auto digits = text.find_first_not_of("+-");
+    const bool is_decimal = digits == std::string::npos || text[digits] != '0' || digits + 1 == text.size();
+    if (std::integral<Number> && !is_decimal)
+      return fmt::format("{}: expected a whole number without a leading 0", text);
     if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return std::string();
     return fmt::format("{}: expected a {}number from {} to {}", text, std::integral<Number> ? "whole " : "",
                        lower, upper);

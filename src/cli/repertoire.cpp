@@ -93,6 +93,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
                      const std::optional<fs::path>& out) {
   if (!out || out->extension() != ".json")
     fail(ExitCode::bad_input, "--cell {}: expected -o FILE.json", cell);
+  experiment::refuse_among_champions(*out);
   io::check_output(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
   const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
   if (!champion) return ExitCode::interrupted;
@@ -105,6 +106,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
 ExitCode write_switching(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
   if (!options.out || options.out->extension() != ".json")
     fail(ExitCode::bad_input, "--switching {}: expected -o FILE.json", *options.gaits);
+  experiment::refuse_among_champions(*options.out);
   io::check_output(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
   experiment::check_can_switch(repertoire.config);
   const int trials = std::max(1, options.retest.value_or(experiment::usual_gait_trials));
@@ -166,7 +168,8 @@ void add_repertoire(CLI::App& app, Action& action) {
       "-o,--out", options->out,
       "FILE.html: a page in which cells are chosen and walk; FILE.svg: a picture of the map; FILE.csv: its "
       "elites as a table; FILE.json: the whole map, or with --cell one elite");
-  command->add_option("--cell", options->cell, "The elite of this cell, as a champion file");
+  command->add_option("--cell", options->cell, "The elite of this cell, as a champion file")
+      ->check(between<std::int64_t>(0, 4294967295));
   command
       ->add_option(
           "--retest", options->retest,
@@ -189,7 +192,7 @@ void add_repertoire(CLI::App& app, Action& action) {
       ->capture_default_str();
   add_jobs(*command, options->jobs,
            "Processors for --retest and --switching; the results do not depend on it");
-  add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, what its elites keep"},
+  add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, the best ten"},
                           {"amble repertoire runs/map -o map.html", ""},
                           {"amble repertoire runs/map --switching 16 -o walker.json",
                            "a walker that obeys, of a map of speeds and turns"}});

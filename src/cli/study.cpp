@@ -194,6 +194,7 @@ ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options
   io::check_output(*options.slurm, "#!/bin/bash", "a batch script");
   if (options.shard != "1/1")
     fail(ExitCode::bad_input, "--shard {}: the tasks of --slurm are shards themselves", options.shard);
+  const char* const plugins = std::getenv("AMBLE_PLUGINS");
   io::write_output(*options.slurm, study::slurm_script({.name = "amble-" + plan.study.name,
                                                         .program = fs::read_symlink("/proc/self/exe"),
                                                         .file = fs::absolute(options.file),
@@ -202,6 +203,7 @@ ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options
                                                         .jobs = options.jobs,
                                                         .per_run = options.per_run,
                                                         .discard_runs = options.discard_runs,
+                                                        .plugins = plugins == nullptr ? "" : plugins,
                                                         .minutes = options.slurm_minutes}));
   fmt::print("{} runs in {} tasks; to submit them, run: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
              io::shell_word(options.slurm->string()));

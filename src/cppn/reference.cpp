@@ -44,8 +44,8 @@ Reference::Reference(const neat::Genome& genome, const Settings& settings)
       if (link.enabled && link.to == genome.nodes[node.index].id)
         node.sources.push_back({to_index(genome.index_of(link.from)), link.weight});
 
-  feed_forward_ = put_sources_first(std::move(ready));
-  AMBLE_CHECK(feed_forward_ || settings.recurrent, "a feed-forward CPPN has a cycle");
+  feed_forward_ = !settings.recurrent;
+  if (feed_forward_) AMBLE_CHECK(put_sources_first(std::move(ready)), "a feed-forward CPPN has a cycle");
 }
 
 bool Reference::put_sources_first(std::vector<bool> ready) {

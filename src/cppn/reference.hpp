@@ -15,8 +15,8 @@ class Reference {
  public:
   Reference(const neat::Genome& genome, const Settings& settings);
 
-  /// `inputs` without the bias. A CPPN without a cycle is evaluated in one pass, sources first; any other in
-  /// Settings::passes_with(hidden nodes) synchronous passes.
+  /// `inputs` without the bias. With Settings::recurrent in Settings::passes_with(hidden nodes) synchronous
+  /// passes, else in one, sources first.
   void evaluate(std::span<const double> inputs, std::span<double> outputs) const;
 
  private:
@@ -36,7 +36,7 @@ class Reference {
   int passes_ = 0;
   bool feed_forward_ = true;
   Linear linear_;
-  std::vector<Node> nodes_;  ///< outputs and hidden; sources first if there is no cycle
+  std::vector<Node> nodes_;  ///< outputs and hidden; sources first if feed-forward
 };
 
 /// How far the outputs of a CPPN depend on the precision they are computed in: the largest change of any

@@ -223,13 +223,12 @@ RobotSpec robot_at_start(const RobotSpec& robot, const Settings& settings) {
 }
 
 RobotSpec as_drawn(const RobotSpec& robot, const Settings& settings) {
-  constexpr std::array pale{0.9f, 0.9f, 0.9f, 0.25f};
   RobotSpec drawn = robot;
   for (const Part& part : settings.parts) {
     if (part.kind != Kind::missing || part.from_s > 0.0) continue;
     const auto leg = static_cast<int>(index_of(robot.legs, part.leg));
     for (robot::Geom& geom : drawn.geoms)
-      if (robot.leg_of_body(geom.body) == leg) geom.rgba = pale;
+      if (robot.leg_of_body(geom.body) == leg) geom.rgba = robot::gone_rgba;
   }
   return drawn;
 }

@@ -78,6 +78,20 @@ bool names_any(const Config& config, std::initializer_list<std::string_view> qua
                                                        &search::DescriptorSettings::quantity));
 }
 
+/// Whether children have the nodes and links of their parents, as by lines and CMA-MAE.
+bool changes_weights_alone(const Config& config) {
+  return is_map_search(config) && config.search.map_elites.variation != search::Variation::mutation;
+}
+
+bool is_cma_of_maps(const Config& config) {
+  return is_map_search(config) && config.search.map_elites.variation == search::Variation::cma;
+}
+
+bool has_one_parent(const Config& config) {
+  return is_map_search(config) && !changes_weights_alone(config) &&
+         config.search.map_elites.crossover_probability == 0.0;
+}
+
 bool is_grid(const Config& config) {
   return is_map_search(config) && config.search.map_elites.archive == search::Archive::grid;
 }
@@ -86,7 +100,7 @@ bool is_plane(const Config& config) {
   return !config.ground.has_field();
 }
 
-constexpr std::array<IdleRule, 46> idle_rules = {
+constexpr std::array<IdleRule, 54> idle_rules = {
     {{"population.size", "", is_map_search,
       "search.kind is \"map-elites\", whose rounds have search.map_elites.batch"},
      {"search.map_elites.challenger_share", "",
@@ -97,6 +111,16 @@ constexpr std::array<IdleRule, 46> idle_rules = {
         return is_map_search(config) && config.search.map_elites.select != search::Selection::dominated;
       },
       "search.map_elites.select is not \"dominated\""},
+     {"search.map_elites.initial", "", is_cma_of_maps,
+      "search.map_elites.variation is \"cma\", whose emitters begin at once"},
+     {"genome.initial_link_probability", "", is_cma_of_maps,
+      "search.map_elites.variation is \"cma\", which begins with all links"},
+     {"mutation.", "", changes_weights_alone, "search.map_elites.variation is not \"mutation\""},
+     {"crossover.", "", changes_weights_alone, "search.map_elites.variation is not \"mutation\""},
+     {"crossover.", "", has_one_parent, "search.map_elites.crossover_probability is 0"},
+     {"innovations.", "", changes_weights_alone, "search.map_elites.variation is not \"mutation\""},
+     {"genome.activation_shares", "", changes_weights_alone,
+      "search.map_elites.variation is not \"mutation\", so no node is new"},
      {"search.map_elites.line.", "",
       [](const Config& config) {
         return is_map_search(config) && config.search.map_elites.variation != search::Variation::line;
@@ -195,6 +219,7 @@ constexpr std::array<IdleRule, 46> idle_rules = {
      {"command.mirrored", "", is_told_by_list, "command.kind is \"fixed\""},
      {"genome.initial_link_probability", "", grows_nothing,
       "search.kind is \"cma-es\", which begins with all links"},
+     {"genome.activation_shares", "", grows_nothing, "search.kind is \"cma-es\", which adds no nodes"},
      {"innovations.", "", grows_nothing, "search.kind is \"cma-es\", which adds no nodes and links"}}};
 
 /// Sensors that settings name and no controller reads.

@@ -128,6 +128,12 @@ bool is_run_folder(const fs::path& folder) {
   return fs::is_regular_file(paths.config) && fs::is_regular_file(paths.robot);
 }
 
+void refuse_among_champions(const fs::path& file) {
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file)).parent_path();
+  if (is_run_folder(folder.parent_path()) && RunPaths(folder.parent_path()).champions == folder)
+    fail(ExitCode::bad_input, "{}: a run keeps its own champions there: name another folder", file.string());
+}
+
 RunPaths find_run(const fs::path& folder) {
   if (!fs::is_directory(folder))
     fail(ExitCode::io, "{}: {}", folder.string(), fs::exists(folder) ? "not a folder" : "no such folder");

@@ -52,6 +52,10 @@ std::uint64_t run_digest(const RunPaths& paths);
 /// Whether a folder looks like a run's.
 bool is_run_folder(const std::filesystem::path& folder);
 
+/// Throws UserError for a file in the folder in which a run keeps its champions, be it there or not: a run
+/// with another one in its place cannot go on.
+void refuse_among_champions(const std::filesystem::path& file);
+
 /// The generation of a champion's file, by its name; nothing for any other file.
 std::optional<int> generation_of(const std::filesystem::path& file);
 

@@ -30,11 +30,13 @@ static float within_half_a_turn(float angle_rad) {
 /* How far the heading that the commanded turns have led to is to the left of the robot's. */
 static void update_heading($p_state *state, const $p_sensors *in) {
   const float turned_rad = state->command_turn_rad_s * $tick;
+  float error_rad;
   if (!state->faces && in->yaw_rad - in->yaw_rad == 0.0f) { /* the first finite one */
     state->faces = 1;
     state->wanted_yaw_rad = within_half_a_turn(in->yaw_rad);
   }
-  state->heading_error_rad = within_half_a_turn(state->wanted_yaw_rad - in->yaw_rad);
+  error_rad = within_half_a_turn(state->wanted_yaw_rad - in->yaw_rad);
+  if (error_rad - error_rad == 0.0f) state->heading_error_rad = error_rad; /* else the yaw is lost: as it was */
 $lead  state->wanted_yaw_rad = within_half_a_turn(state->wanted_yaw_rad + turned_rad);
 }
 

@@ -1,4 +1,5 @@
 #include "amble/core/check.hpp"
+#include "amble/exporting/c_neural_text.hpp"
 #include "amble/exporting/c_parts.hpp"
 
 /// Steering by hand, in C: controllers::DifferentialArchitecture operation by operation, around any
@@ -81,6 +82,7 @@ void add_differential(const ControllerTables& tables, CText& text) {
     factors.push_back(std::to_string(joint.factor));
     swing.push_back({c_float(joint.centre_rad), c_float(joint.lower_rad), c_float(joint.upper_rad)});
   }
+  text.block(c_rounding);  // what it is around may compute nothing
   if (own) add_commands(tables, text);
   text.line("static const float turn_gain = {}, most_change = {};", c_float(steering.turn_gain),
             c_float(steering.most_change));

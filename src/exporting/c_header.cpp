@@ -75,6 +75,9 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, const robo
     lines.push_back(fmt::format("Nodes that sense: {}.", fmt::join(names, ", ")));
     lines.push_back("A reading that is not finite is replaced by the last one that was.");
   }
+  const auto* const supg = std::get_if<SupgTables>(&tables.parts);
+  if (supg != nullptr && supg->modulation)
+    lines.push_back("What legs sense is replaced by the last finite reading where it is not finite.");
   return lines;
 }
 

@@ -52,6 +52,11 @@ static float reshaped(const $p_state *state, int joint, float y) {
 
 )";
 
+/// Sensors, neurons, and SUPGs that neurons listen to.
+std::size_t rows_of(const SupgTables::Mixed& mixed) {
+  return mixed.sensors.size() + mixed.neurons.size() + mixed.listened.size();
+}
+
 /// CSR: where the links of each sum begin, and the end.
 class LinkLists {
  public:
@@ -105,11 +110,15 @@ void add_net_tables(const SupgTables& supg, CText& text) {
       "/* Links of neurons, of legs' rates, joints' amplitudes and shifts{}: from each first one on. */",
       mixed.pulls.empty() ? "" : ", and of couplings");
   text.array(fmt::format("static const float weight[{}]", lists.weights().size()), lists.weights());
-  text.array(fmt::format("static const uint16_t source[{}]", lists.sources().size()), lists.sources());
-  text.array(fmt::format("static const uint16_t first_hidden[{}]", first_hidden.size()), first_hidden);
-  text.array(fmt::format("static const uint16_t first_sum[{}]", first_sum.size()), first_sum);
+  const std::string link = unsigned_type(lists.weights().size());
+  text.array(
+      fmt::format("static const {} source[{}]", unsigned_type(std::max(rows_of(mixed), 2 * supg.legs.size())),
+                  lists.sources().size()),
+      lists.sources());
+  text.array(fmt::format("static const {} first_hidden[{}]", link, first_hidden.size()), first_hidden);
+  text.array(fmt::format("static const {} first_sum[{}]", link, first_sum.size()), first_sum);
   if (!mixed.pulls.empty())
-    text.array(fmt::format("static const uint16_t first_pull[{}]", first_pull.size()), first_pull);
+    text.array(fmt::format("static const {} first_pull[{}]", link, first_pull.size()), first_pull);
   const std::size_t neurons = std::max<std::size_t>(1, mixed.neurons.size());
   text.array(fmt::format("static const float bias[{}]", neurons),
              floats(mixed.neurons, &SupgTables::Mixed::Neuron::bias));
@@ -136,7 +145,7 @@ void add_read_sensors(const SupgTables::Mixed& mixed, CText& text) {
     const controllers::LegSensor& sensor = mixed.sensors[s];
     text.line("  product = {} * {}; /* {} */", c_sensor_member(sensor.sensor), c_float(sensor.gain),
               in_comment(mixed.sensor_names[s]));
-    text.line("  state->value[{}] = within_one(product - {});", s, c_float(sensor.shift));
+    text.line("  state->value[{0}] = sensed_as(product - {1}, state->value[{0}]);", s, c_float(sensor.shift));
   }
   text.line("  (void)state, (void)in;");
   text.line("}}");
@@ -158,9 +167,8 @@ void add_sine(CText& text) {
 
 void add_mixed_state(const SupgTables::Mixed& mixed, CText& text) {
   const std::string upper = upper_case(text.prefix());
-  const std::size_t rows = mixed.sensors.size() + mixed.neurons.size() + mixed.listened.size();
   text.line("  float value[{}]; /* sensors, neurons, SUPGs that neurons listen to */",
-            std::max<std::size_t>(1, rows));
+            std::max<std::size_t>(1, rows_of(mixed)));
   text.line("  float next[{}];  /* scratch */", std::max<std::size_t>(1, mixed.neurons.size()));
   text.line("  float sum[{0}_LEGS + 2 * {0}_JOINTS]; /* of legs' rates, joints' amplitudes and shifts */",
             upper);
@@ -192,9 +200,8 @@ std::string c_mixed_growth(const SupgTables::Mixed& mixed) {
 }
 
 std::string c_mixed_init(const SupgTables::Mixed& mixed) {
-  const std::size_t rows = mixed.sensors.size() + mixed.neurons.size() + mixed.listened.size();
   return fmt::format("  for (leg = 0; leg < {}; ++leg) state->value[leg] = 0.0f;\n",
-                     std::max<std::size_t>(1, rows));
+                     std::max<std::size_t>(1, rows_of(mixed)));
 }
 
 std::string c_mixed_end(const SupgTables::Mixed& mixed) {

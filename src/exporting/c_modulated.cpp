@@ -9,10 +9,14 @@ namespace amble::exporting {
 namespace {
 
 constexpr std::string_view helpers =
-    R"(/* About +- 1 over a reading's range; -1 of one that is not a number. */
-static float within_one(float s) {
+    R"(static float within_one(float s) {
   const float above = s > -1.0f ? s : -1.0f;
   return above < 1.0f ? above : 1.0f;
+}
+
+/* About +- 1 over a reading's range; where it is not finite, the one before. */
+static float sensed_as(float s, float before) {
+  return s - s == 0.0f ? within_one(s) : before;
 }
 
 )";
@@ -133,7 +137,7 @@ constexpr std::string_view readings_text = R"(  int s, l;
 
 constexpr std::string_view step_text =
     R"(void $p_step($p_state *state, const $p_sensors *in, $p_targets *targets) {
-  float sensed[$P_LEGS][sensor_count + 1];
+  float (*const sensed)[sensor_count + 1] = state->sensed;
   int32_t continued[$P_LEGS];
   int leg, joint;
   (void)in;
@@ -168,13 +172,14 @@ constexpr std::string_view first_stages = R"(      int stage;
 )";
 
 constexpr std::string_view init_text = R"(void $p_init($p_state *state) {
-  int leg$variables;
+  int leg, sensor$variables;
   for (leg = 0; leg < $P_LEGS; ++leg) {
     state->timer[leg] = stopped;
     state->airborne[leg] = 0;
     state->wait[leg] = wait_ticks[leg];
     state->trigger[leg] = 0;
     state->rests[leg] = 0;
+    for (sensor = 0; sensor <= sensor_count; ++sensor) state->sensed[leg][sensor] = 0.0f;
   }
 $rest}
 
@@ -197,7 +202,7 @@ void add_sense(const SupgTables::Modulation& modulation, bool commands, CText& t
         continue;
       }
       text.line("      product = {} * {};", c_sensor_member(sensor.sensor), c_float(sensor.gain));
-      text.line("      sensed[{}] = within_one(product - {});", s, c_float(sensor.shift));
+      text.line("      sensed[{0}] = sensed_as(product - {1}, sensed[{0}]);", s, c_float(sensor.shift));
     }
     text.line("      break;");
   }
@@ -342,6 +347,8 @@ void add_modulated_state(const SupgTables& tables, CText& text) {
   text.line("  int32_t wait[{}_LEGS];     /* ticks before the first start; -1 once it was */", upper);
   text.line("  int32_t rests[{}_LEGS];    /* ticks in which there is no other trigger */", upper);
   text.line("  uint8_t trigger[{}_LEGS];  /* 1 in the tick of a trigger */", upper);
+  text.line("  float sensed[{}_LEGS][{}]; /* the last finite readings */", upper,
+            tables.modulation->sensor_count() + 1);
   if (tables.mixed) add_mixed_state(*tables.mixed, text);
   if (tables.contact) add_contact_state(*tables.contact, text);
   if (!tables.seam) return;

@@ -213,7 +213,9 @@ void draw_robot(Svg& svg, const robot::RobotSpec& robot, const motion::Motion& m
     middle_m += depth_m.back() / static_cast<double>(robot.legs.size());
   }
   for (const Silhouette& outline : view.outlines) {
-    const int leg = robot.leg_of_body(robot.geoms[to_index(outline.geom)].body);
+    const robot::Geom& geom = robot.geoms[to_index(outline.geom)];
+    if (geom.rgba == robot::gone_rgba) continue;
+    const int leg = robot.leg_of_body(geom.body);
     if (leg < 0) {
       draw_outline(svg, outline, view, cell, "trunk");
       continue;

@@ -77,6 +77,11 @@ bool Settings::is_default() const {
 
 Vec3 Settings::tilted(Vec3 gravity_m_s2) const {
   if (slope_x == 0.0 && slope_y == 0.0) return gravity_m_s2;
+  if (gravity_m_s2.x != 0.0 || gravity_m_s2.y != 0.0)
+    fail_setting({slope_x != 0.0 ? "ground.slope_x" : "ground.slope_y"},
+                 "ground.slope_x, slope_y = {:g}, {:g}: the robot's own gravity leans already, "
+                 "({:.4g}, {:.4g}, {:.4g}) m/s2; expected either, such as gravity along -z in the model",
+                 slope_x, slope_y, gravity_m_s2.x, gravity_m_s2.y, gravity_m_s2.z);
   // Seen from the slope, down leans downhill: without sines, whose last bits differ between CPUs.
   const double along = gravity_m_s2.z / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
   return {slope_x * along, slope_y * along, along};

@@ -61,9 +61,27 @@ std::string& last_read() {
   return path;
 }
 
+/// Whether the path leads to an open file of a process, as /dev/stdout does, whatever that file is.
+bool is_open_descriptor(std::filesystem::path path) {
+  constexpr int most_links = 40;  // as the kernel's
+  std::error_code error;
+  for (int i = 0; i < most_links; ++i) {
+    const auto folder = std::filesystem::canonical(std::filesystem::absolute(path).parent_path(), error);
+    if (error) return false;
+    if (folder.native().starts_with("/proc/")) return true;
+    if (!std::filesystem::is_symlink(path, error)) return false;
+    const auto target = std::filesystem::read_symlink(path, error);
+    if (error) return false;
+    path = target.is_absolute() ? target : folder / target;
+  }
+  return false;
+}
+
 bool is_special_file(const std::filesystem::path& path) {
   struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+  const bool is_regular =
+      ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
+  return !is_regular || is_open_descriptor(path);
 }
 
 namespace fs = std::filesystem;

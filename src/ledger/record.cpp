@@ -191,6 +191,7 @@ io::Json results_json(const Record& record) {
                 {"champion_file", record.champion_file},
                 {"champion", record.champion}};
   if (!record.map_figures.empty()) json["map"] = record.map_figures;
+  if (record.map_trials > 0) json["map_trials"] = record.map_trials;
   return json;
 }
 
@@ -336,6 +337,7 @@ Record parse_record(const std::string& text, const std::string& what) {
                 .tests = {},
                 .provenance = provenance_from(root.at("provenance"))};
   if (root.has("map")) record.map_figures = numbers_from(root.at("map"));
+  if (root.has("map_trials")) record.map_trials = count_from(root.at("map_trials"));
   const auto curve = root.at("curve"), tests = root.at("tests");
   for (std::size_t i = 0; i < curve.size(); ++i)
     record.curve.push_back(

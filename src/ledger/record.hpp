@@ -133,6 +133,8 @@ struct Record {
   /// What a run that fills a map has at its end: coverage, qd_score, map_best, entering_share, and in studies
   /// with `map_trials` corrected_coverage, corrected_qd_score, staying_share (docs/STUDIES.md).
   std::map<std::string, double> map_figures = {};
+  /// StudySpec::map_trials of the corrected ones; 0: it has none, or is older than this number.
+  int map_trials = 0;
   std::vector<CurvePoint> curve;  ///< ascending; the best so far stays until the next point
   io::Json champion;              ///< a champion file without its traces (docs/FORMATS.md)
   std::string champion_file;      ///< hash of the champion's file in the run folder, traces included

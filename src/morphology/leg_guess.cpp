@@ -257,6 +257,14 @@ class LegNamer {
     }
   }
 
+  bool is_joint_of_no_leg(const std::string& name) const {
+    const auto joint = std::ranges::find(parts_.joints, name, &robot::Joint::name);
+    const auto number = static_cast<int>(joint - parts_.joints.begin());
+    return joint != parts_.joints.end() && std::ranges::none_of(guess_.legs, [number](const LegGuess& leg) {
+             return std::ranges::find(leg.joints, number) != leg.joints.end();
+           });
+  }
+
   bool take_types(bool by_name, const std::vector<std::string>& common, std::size_t most) {
     std::vector<std::string> all;
     std::vector<std::vector<std::string>> by_leg;
@@ -270,6 +278,7 @@ class LegNamer {
         if (std::isdigit(static_cast<unsigned char>(type[0])) != 0) type.insert(0, "j");
         for (const LegGuess& leg : guess_.legs)
           if (leg.name == type) type += "_hinge";
+        if (is_joint_of_no_leg(type)) type += "_hinge";
         const auto found = std::ranges::find(all, type);
         place = found != all.end() ? found + 1 : all.insert(place, type) + 1;
       }

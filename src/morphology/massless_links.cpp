@@ -93,6 +93,7 @@ class LinkMerger {
       parts_.joints.erase(parts_.joints.begin() + at);
       parts_.start_rad.erase(parts_.start_rad.begin() + at);
       parts_.model_joints.erase(parts_.model_joints.begin() + at);
+      parts_.drives.erase(parts_.drives.begin() + at);
     }
   }
 

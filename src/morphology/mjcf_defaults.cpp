@@ -1,5 +1,8 @@
 #include "amble/morphology/mjcf_defaults.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace amble::morphology {
 
 MjcfDefaults::MjcfDefaults(const XmlElement& root) {
@@ -11,13 +14,27 @@ MjcfDefaults::MjcfDefaults(const XmlElement& root) {
   }
 }
 
+namespace {
+
+/// Whether defaults of one are those of the other: actuators of a class share theirs.
+bool share_defaults(std::string_view a, std::string_view b) {
+  constexpr std::array<std::string_view, 9> actuators{
+      "general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion"};
+  const auto is_actuator = [&](std::string_view name) {
+    return std::ranges::find(actuators, name) != actuators.end();
+  };
+  return a == b || (is_actuator(a) && is_actuator(b));
+}
+
+}  // namespace
+
 std::optional<std::string> MjcfDefaults::attribute(const XmlElement& element, std::string_view key,
                                                    const std::string& childclass) const {
   if (auto own = element.attribute(key)) return own;
   for (const Class* at = find(element.attribute_or("class", childclass)); at != nullptr; at = at->parent) {
     const auto& settings = at->settings->children;
     for (auto its = settings.rbegin(); its != settings.rend(); ++its)
-      if (its->name == element.name)
+      if (share_defaults(its->name, element.name))
         if (auto value = its->attribute(key)) return value;
   }
   return std::nullopt;

@@ -188,12 +188,15 @@ class FrameResolver {
     body.children = std::move(children);
   }
 
-  /// Joints and inertia of a frame are those of its body.
-  std::vector<XmlElement> lifted(XmlElement& frame, const std::string& above) const {
-    const robot::Pose at = poses_.pose(frame);
+  /// Joints and inertia of a frame, and of frames within it, are those of its body. `outer`: where it stands.
+  std::vector<XmlElement> lifted(XmlElement& frame, const std::string& above,
+                                 const robot::Pose& outer = {}) const {
+    const robot::Pose at = outer * poses_.pose(frame);
     const std::string childclass = frame.attribute_or("childclass", above);
     std::vector<XmlElement> parts;
     for (XmlElement& part : frame.children) {
+      if (part.name == "frame")
+        for (XmlElement& inner : lifted(part, childclass, at)) parts.push_back(std::move(inner));
       if (part.name == "inertial") MjcfPoses::set(part, at * poses_.pose(part));
       if (part.name == "joint") {
         const auto given = [&](const char* key) {

@@ -35,6 +35,7 @@ class MjcfCleaner {
     name_parts(root_, notes_);
     mend_limits(root_, false, notes_);
     balance_inertias(root_, false, notes_);
+    name_keyframes();
     drive_joints_of_tendons();
     read_motors();
     remove_unneeded();
@@ -58,6 +59,20 @@ class MjcfCleaner {
                "{}:{}: <{}>: elements that make bodies when the model is compiled are not read; let "
                "MuJoCo write the model out (compile model.xml out.xml)",
                element.file, element.line, name);
+    });
+  }
+
+  /// So that each can be the start.
+  void name_keyframes() {
+    std::set<std::string> names;
+    root_.visit([&](const XmlElement& element) {
+      if (element.name == "key") names.insert(element.attribute_or("name", ""));
+    });
+    root_.visit([&](XmlElement& element, XmlElement*) {
+      if (element.name != "key" || !element.attribute_or("name", "").empty()) return;
+      std::string name = "key";
+      for (int k = 2; !names.insert(name).second; ++k) name = fmt::format("key_{}", k);
+      element.set("name", name);
     });
   }
 

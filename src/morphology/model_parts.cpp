@@ -118,7 +118,10 @@ class PartsExtractor {
 
   void free_root() {
     const int joints = model_.body_jntnum[root_], first = model_.body_jntadr[root_];
-    if (joints == 1 && model_.jnt_type[first] == mjJNT_FREE) return;
+    if (joints == 1 && model_.jnt_type[first] == mjJNT_FREE) {
+      parts_.root_is_free = true;
+      return;
+    }
     if (joints == 0 && file_.root_is_welded) return;
     std::vector<std::string> names;
     for (int j = first; j < first + joints; ++j) {

@@ -226,10 +226,26 @@ bool is_of_a_foot(const mjModel_& model, int root, int geom,
   return true;
 }
 
+bool is_ground(const mjModel_& model, int geom) {
+  if (model.geom_type[geom] != mjGEOM_PLANE || !collides(model, geom)) return false;
+  int body = model.geom_bodyid[geom];
+  if (model.body_weldid[body] != 0) return false;
+  robot::Pose pose{vec3(model.geom_pos + 3 * geom), quat(model.geom_quat + 4 * geom)};
+  for (; body != 0; body = model.body_parentid[body])
+    pose = robot::Pose{vec3(model.body_pos + 3 * body), quat(model.body_quat + 4 * body)} * pose;
+  return std::abs(pose.position_m.z) < 1e-9 && rotate(pose.rotation, {0.0, 0.0, 1.0}).z > 1.0 - 1e-12;
+}
+
 void let_visuals_collide(mjModel_& model, ReadingNotes& notes) {
+  // What stands in the world and carries nothing that moves is not the robot.
+  std::vector<bool> of_robot(to_index(model.nbody));
+  for (int body = model.nbody - 1; body > 0; --body) {
+    of_robot[to_index(body)] = of_robot[to_index(body)] || model.body_weldid[body] != 0;
+    if (of_robot[to_index(body)]) of_robot[to_index(model.body_parentid[body])] = true;
+  }
   std::vector<int> shapes;
   for (int g = 0; g < model.ngeom; ++g) {
-    if (model.geom_bodyid[g] == 0) continue;
+    if (model.geom_bodyid[g] == 0 || !of_robot[to_index(model.geom_bodyid[g])]) continue;
     if (collides(model, g)) return;
     shapes.push_back(g);
   }

@@ -36,6 +36,10 @@ bool moves_as_root(const mjModel_& model, int body);
 /// of another tree of bodies, such as the floor.
 bool collides(const mjModel_& model, int geom);
 
+/// Whether a geom is the ground: a plane z = 0 that collides and stands still in the world, in whatever
+/// bodies.
+bool is_ground(const mjModel_& model, int geom);
+
 /// Shape and size of a geom of the model; of meshes and ellipsoids the convex hull, with its vertices, of
 /// colliding meshes that are round about an axis the cylinder. Its pose is within the geom's frame; names and
 /// colour are the caller's. Nothing for shapes that robots do not have (planes, height fields) and

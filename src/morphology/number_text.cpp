@@ -42,7 +42,7 @@ double weaker_side(double lower, double upper) {
 namespace {
 
 struct OddLimits {
-  std::vector<std::string> crossed, empty, missing;
+  std::vector<std::string> crossed, empty, missing, endless;
 };
 
 /// As it is told: by its name, its joint's or its class's.
@@ -54,6 +54,15 @@ std::string who(const XmlElement& element) {
 
 void look_at_urdf_joint(XmlElement& joint, OddLimits& odd) {
   const std::string type = joint.attribute_or("type", "");
+  // MuJoCo would heed them.
+  if (XmlElement* limit = joint.name == "joint" && type == "continuous" ? joint.child("limit") : nullptr) {
+    for (const char* key : {"lower", "upper"}) {
+      if (number_or_zero(limit->attribute_or(key, "0")) != 0.0 &&
+          (odd.endless.empty() || odd.endless.back() != who(joint)))
+        odd.endless.push_back(who(joint));
+      limit->remove_attribute(key);
+    }
+  }
   if (joint.name != "joint" || (type != "revolute" && type != "prismatic")) return;
   XmlElement* limit = joint.child("limit");
   if (limit == nullptr) {
@@ -115,11 +124,14 @@ void mend_limits(XmlElement& root, bool urdf, ReadingNotes& notes) {
   note("limits that leave no range, as exporters write them where none are known: these joints have no stops",
        odd.empty);
   note("joints without <limit>: they have no stops", odd.missing);
+  note("stops of continuous joints, which have none", odd.endless);
 }
 
 double inward(double value, double start) {
   const double scaled = value * 1e4;
-  return (value < start ? std::ceil(scaled - 1e-6) : std::floor(scaled + 1e-6)) / 1e4;
+  if (value < start) return std::min(std::ceil(scaled - 1e-6) / 1e4, start);
+  if (value > start) return std::max(std::floor(scaled + 1e-6) / 1e4, start);
+  return value;
 }
 
 double rounded_down(double length_m) {

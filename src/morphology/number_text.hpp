@@ -27,7 +27,7 @@ double weaker_side(double lower, double upper);
 /// <limit>.
 void mend_limits(XmlElement& root, bool urdf, ReadingNotes& notes);
 
-/// Four digits after the point, rounded towards zero from `start`.
+/// Four digits after the point, rounded towards `start` and never past it; `start` itself as it is.
 double inward(double value, double start);
 
 /// Whole millimetres; of less than a centimetre three digits.

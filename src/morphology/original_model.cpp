@@ -271,11 +271,8 @@ class ModelKeeper {
   // ---- the ground
 
   bool has_ground() const {
-    for (int g = 0; g < model_.ngeom; ++g) {
-      if (model_.geom_bodyid[g] != 0 || model_.geom_type[g] != mjGEOM_PLANE || !collides(g)) continue;
-      const Vec3 normal = rotate(quat(model_.geom_quat + 4 * g), {0.0, 0.0, 1.0});
-      if (model_.geom_pos[3 * g + 2] == 0.0 && normal.z == 1.0) return true;
-    }
+    for (int g = 0; g < model_.ngeom; ++g)
+      if (is_ground(model_, g)) return true;
     return false;
   }
 

@@ -258,7 +258,9 @@ robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const 
   if (side.keep_model) robot.original = keep_model(model, options, parts, robot, parts.notes);
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
-  if (side.root_height_m > 0.0) robot.bodies[0].position_m.z = side.root_height_m;
+  // Robots start above the origin (docs/CONVENTIONS.md).
+  if (parts.root_is_free) robot.bodies[0].position_m.x = robot.bodies[0].position_m.y = 0.0;
+  if (side.root_height_m != 0.0) robot.bodies[0].position_m.z = side.root_height_m;
   robot.contact = side.contact;
   robot.gravity_m_s2 = parts.gravity_m_s2;
   robot.fall_height_m = side.fall_height_m;

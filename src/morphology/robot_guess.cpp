@@ -171,13 +171,14 @@ class RobotGuesser {
     write_rotation();
     const auto poses = robot::start_poses(robot_);
     const double clearance_m = robot::clearance_m(robot_, poses), root_m = robot_.bodies[0].position_m.z;
-    const double raised_m = rounded_up(root_m - clearance_m);
+    double raised_m = rounded_up(root_m - clearance_m);
+    if (raised_m == 0.0) raised_m = 1e-4;  // 0 would be the model's own height
     double lift_m = 0.0;
-    if (std::isfinite(clearance_m) && raised_m > 0.0) {
+    if (std::isfinite(clearance_m)) {
       line("# The lowest point touches the ground; the model has {:.4g}.", root_m);
       line("start_height_m = {}", raised_m);
       lift_m = raised_m - root_m;
-    } else if (!std::isfinite(clearance_m)) {
+    } else {
       guess_.asked.push_back("a foot: nothing of the model collides");
     }
     const double com_m = (poses[0] * robot_.bodies[0].com_m).z + lift_m;

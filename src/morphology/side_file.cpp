@@ -70,8 +70,8 @@ struct TopKeys {
          "y and z, in this order, degrees; left out: as the model has it"});
     visitor.numbers("start_quaternion", quaternion, {-largest, largest},
                     {"the same as a quaternion (w, x, y, z)"});
-    visitor.number("start_height_m", side.root_height_m, {0.0, largest},
-                   {"height of the root's frame in the start pose; 0: as the model has it"});
+    visitor.number("start_height_m", side.root_height_m, {-largest, largest},
+                   {"height of the root's frame in the start pose, also below 0; 0: as the model has it"});
     visitor.number("fall_height_m", side.fall_height_m, {-largest, largest},
                    {"the robot has fallen when the root's centre of mass is lower"});
     visitor.number("fall_above_m", side.fall_above_m, {0.0, unbounded}, {"or when it is higher; inf: never"});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -155,6 +156,63 @@ void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
   }
 }
 
+/// A shape with another form, `along_m` from its middle along its axis.
+XmlElement with_form(const XmlElement& shape, XmlElement form, double along_m) {
+  XmlElement made = shape;
+  made.child("geometry")->children = {std::move(form)};
+  if (along_m == 0.0) return made;
+  made.remove_attribute("name");
+  if (made.child("origin") == nullptr)
+    made.children.push_back(XmlElement{.name = "origin", .file = shape.file, .line = shape.line});
+  XmlElement& origin = *made.child("origin");
+  std::vector<double> xyz = numbers_of(origin.attribute_or("xyz", "0 0 0")),
+                      rpy = numbers_of(origin.attribute_or("rpy", "0 0 0"));
+  xyz.resize(3), rpy.resize(3);
+  const double cr = std::cos(rpy[0]), sr = std::sin(rpy[0]), cp = std::cos(rpy[1]), sp = std::sin(rpy[1]),
+               cy = std::cos(rpy[2]), sy = std::sin(rpy[2]);
+  const std::array axis{cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
+  origin.set("xyz", fmt::format("{} {} {}", xyz[0] + along_m * axis[0], xyz[1] + along_m * axis[1],
+                                xyz[2] + along_m * axis[2]));
+  return made;
+}
+
+/// Capsules, which MuJoCo knows in MJCF alone, as a cylinder and two balls. Throws UserError for other shapes
+/// that it does not know.
+void replace_capsules(XmlElement& root, ReadingNotes& notes) {
+  constexpr std::array<std::string_view, 4> known{"box", "cylinder", "sphere", "mesh"};
+  std::vector<std::string> replaced;
+  for (XmlElement& link : root.children) {
+    if (link.name != "link") continue;
+    std::vector<XmlElement> parts;
+    for (XmlElement& shape : link.children) {
+      const XmlElement* const geometry =
+          shape.name == "visual" || shape.name == "collision" ? shape.child("geometry") : nullptr;
+      const XmlElement* const form =
+          geometry != nullptr && !geometry->children.empty() ? &geometry->children.front() : nullptr;
+      if (form == nullptr || std::ranges::find(known, form->name) != known.end()) {
+        parts.push_back(std::move(shape));
+        continue;
+      }
+      const std::string of = link.attribute_or("name", "");
+      if (form->name != "capsule")
+        fail(ExitCode::bad_input, "{}:{}: link '{}': <{}>: expected a box, cylinder, sphere, capsule or mesh",
+             form->file, form->line, of, form->name);
+      XmlElement cylinder = *form, ball = *form;
+      cylinder.name = "cylinder";
+      ball.name = "sphere";
+      ball.remove_attribute("length");
+      const double half_m = 0.5 * number_or_zero(form->attribute_or("length", "0"));
+      parts.push_back(with_form(shape, std::move(cylinder), 0.0));
+      for (const double along_m : {-half_m, half_m}) parts.push_back(with_form(shape, ball, along_m));
+      replaced.push_back(of);
+    }
+    link.children = std::move(parts);
+  }
+  if (!replaced.empty())
+    notes.add(Reading::replaced,
+              fmt::format("capsules, by a cylinder and two balls: of {}", fmt::join(replaced, ", ")));
+}
+
 /// A root without anything, from which the robot hangs by a floating or planar joint, is the world by another
 /// name: MuJoCo knows no such joint below a link, and amble's root is free by itself.
 void remove_floating_roots(XmlElement& root, ReadingNotes& notes) {
@@ -237,6 +295,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
   refuse_unknown_joints(root, path);
   remove_floating_roots(root, notes);
+  replace_capsules(root, notes);
   const fs::path mesh_folder = set_options(root);
   read_motors(text, notes);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {

@@ -1,7 +1,9 @@
 #include "amble/page/packed_recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -88,18 +90,29 @@ Table contact_table(const record::RecordingReader& reader, const robot::RobotSpe
   return table;
 }
 
-/// The row of time 0: the robot as its file has it, with all else from the first frame (zeros without one).
-std::vector<float> start_row(const robot::RobotSpec& robot, const Table& poses,
-                             const std::vector<float>& first_frame) {
-  const robot::Body& root = robot.bodies.front();
-  const Vec3 com_m = robot::start_com_m(robot);
-  std::vector<float> row;
-  for (const double value : {root.position_m.x, root.position_m.y, root.position_m.z, root.rotation.w,
-                             root.rotation.x, root.rotation.y, root.rotation.z, com_m.x, com_m.y, com_m.z})
-    row.push_back(static_cast<float>(value));
-  row.resize(row.size() + robot.joints.size(), 0.0f);
-  for (std::size_t i = row.size(); i < poses.names().size(); ++i)
-    row.push_back(first_frame.empty() ? 0.0f : first_frame[poses.indices()[i]]);
+/// The row of time 0: the robot as its file has it, or where the trial began elsewhere, as in the first
+/// frame, but for centre of mass and angles, which the header has. All else is from the first frame (zeros
+/// without one).
+std::vector<float> start_row(const record::RecordingHeader& header, const robot::RobotSpec& robot,
+                             const Table& poses, const std::vector<float>& first_frame) {
+  std::vector<float> row(poses.names().size(), 0.0f);
+  if (!first_frame.empty())
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = first_frame[poses.indices()[i]];
+  const auto put = [&row](std::size_t first, const auto& values) {
+    std::ranges::transform(values, row.begin() + static_cast<std::ptrdiff_t>(first),
+                           [](double value) { return static_cast<float>(value); });
+  };
+  constexpr std::size_t com = 7, angles = com + 3;                           // as in pose_table
+  const bool elsewhere = header.com_start_m || !header.ground_json.empty();  // on uneven ground anywhere
+  if (!elsewhere || first_frame.empty()) {
+    const robot::Body& root = robot.bodies.front();
+    const Vec3 com_m = robot::start_com_m(robot);
+    put(0, std::array{root.position_m.x, root.position_m.y, root.position_m.z, root.rotation.w,
+                      root.rotation.x, root.rotation.y, root.rotation.z, com_m.x, com_m.y, com_m.z});
+    put(angles, std::vector<double>(robot.joints.size(), 0.0));
+  }
+  if (header.com_start_m) put(com, *header.com_start_m);
+  if (header.angle_start_rad.size() == robot.joints.size()) put(angles, header.angle_start_rad);
   return row;
 }
 
@@ -119,18 +132,17 @@ PackedRecording pack_recording(const std::filesystem::path& path, double pose_in
   for (std::vector<float> frame; reader.next(frame);) {
     healthy = healthy && std::ranges::all_of(frame, finite);
     if (!healthy) continue;
-    // On uneven ground a trial may start anywhere.
-    if (frames == 0 && header.ground_json.empty()) poses.add_row(start_row(robot, poses, frame));
-    if (frames == 0 && !header.ground_json.empty()) poses.add(frame);
+    if (frames == 0) poses.add_row(start_row(header, robot, poses, frame));
     contacts.add(frame);
     if (++frames % frames_per_pose == 0) poses.add(frame);
   }
-  if (frames == 0) poses.add_row(start_row(robot, poses, {}));
+  if (frames == 0) poses.add_row(start_row(header, robot, poses, {}));
 
   return {.robot_json = header.robot_json,
           .controller_json = header.controller_json,
           .origin = header.origin,
           .ground_json = header.ground_json,
+          .damage_json = header.damage_json,
           .seconds = static_cast<double>(frames) * header.frame_s,
           .outcome = reader.outcome(),
           .poses = poses.pack(0.0, static_cast<double>(frames_per_pose) * header.frame_s),

@@ -21,12 +21,12 @@ struct PackedFrames {
 /// The part of a recording that the page contains.
 struct PackedRecording {
   std::string robot_json, controller_json, origin;
-  std::string ground_json;  ///< record::RecordingHeader::ground_json
-  double seconds = 0.0;     ///< until the time was up or the robot fell
+  std::string ground_json, damage_json;  ///< as in record::RecordingHeader
+  double seconds = 0.0;                  ///< until the time was up or the robot fell
   record::Outcome outcome = record::Outcome::completed;
   /// Root, centre of mass, angles, targets and timers, `pose_interval_s` apart. The first row is the start
-  /// pose, time 0 (on uneven ground the pose after the first step); its targets and timers are those of the
-  /// first step.
+  /// pose, time 0 (where a trial begins elsewhere, as on uneven ground, the root is that after the first
+  /// step); its targets and timers are those of the first step.
   PackedFrames poses;
   /// Touches and triggers of every recorded frame: between two poses a foot may come down and leave.
   PackedFrames contacts;

@@ -64,6 +64,8 @@ io::Json walker_json(const Walker& walker) {
           {"robot", io::parse_json(recording.robot_json, what)},
           {"controller", packed(io::parse_json(recording.controller_json, what).dump())},
           {"ground", ground_json(recording.ground_json, what)},
+          {"damage",
+           recording.damage_json.empty() ? io::Json(nullptr) : io::parse_json(recording.damage_json, what)},
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},
           {"cppn_svg", packed_text(walker.cppn_svg)},

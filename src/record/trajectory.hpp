@@ -111,7 +111,8 @@ struct Trajectory {
   /// Measures::headings: the same after the last healthy step.
   double turned_rad = 0.0;
   /// Measures::commands or headings: mean of what was commanded in each whole second, speed (m/s) and turn
-  /// (rad/s) in turn. Empty without commands.
+  /// (rad/s) in turn. Empty without commands. Measures::commands: also for the seconds that the trial was cut
+  /// off from, by a fall or as it diverged, what would have been commanded at their ends.
   std::vector<double> command_by_second;
 
   /// How long it lasted, s: also the time of the last step.

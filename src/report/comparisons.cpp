@@ -54,7 +54,8 @@ std::vector<SampleSummary> summarize(const StudyData& data) {
   for (const std::string& measure : measures_of(data))
     for (const ledger::ConditionSpec& condition : data.study.conditions) {
       const auto values = data.values(condition.name, measure);
-      // Runs that never got as far as a test asks have no mean; the table of runs and counts have them.
+      // Where runs never got as far as a test asks, or went nowhere, there is no mean; the table of runs and
+      // counts have them.
       if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) continue;
       auto summary = statistics::summarize(values, confidence);
       if (!summary) continue;

@@ -65,7 +65,7 @@ StopCounts count_stops(const StudyData& data, const std::vector<const ledger::Te
 }  // namespace
 
 std::optional<double> walking_by_path_s(const ledger::TestResult& test, const score::StandingRule& rule) {
-  if (test.path_interval_s <= 0.0 || test.path_m.empty() ||
+  if (test.path_interval_s <= 0.0 ||
       rule.window_s < fewest_intervals * test.path_interval_s * (1.0 - stop_time_slack))
     return std::nullopt;
   std::vector<Place> path{{}};  // the start, from which the record's path counts

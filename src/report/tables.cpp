@@ -118,7 +118,7 @@ Table typical_table(const Report& report) {
         const TypicalTable::Column& column = typical.columns[point.column];
         const statistics::Summary& s = point.summary;
         Row row{typical.trial_s, typical.engine,  std::string(disturbance_name(column)),
-                column.measure,  curve.condition, cell(s.n),
+                point.measure,   curve.condition, cell(s.n),
                 s.mean};
         append(row, s.mean_interval);
         for (const double value : {s.lower_quartile, s.median, s.upper_quartile}) row.emplace_back(value);

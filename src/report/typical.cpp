@@ -29,15 +29,18 @@ bool walked_undisturbed(const ledger::Record& run, double seconds) {
          ledger::objective_of(run).is_distance;
 }
 
-/// The measure of the undisturbed trial beside a test at a level; empty if there is none.
-std::string undisturbed_measure(const StudyData& data, const ledger::TestSpec& levelled) {
+/// The measures of the undisturbed trial beside a test at a level.
+std::vector<std::string> undisturbed_measures(const StudyData& data, const ledger::TestSpec& levelled) {
+  std::vector<std::string> measures;
   for (const ledger::TestSpec& test : data.study.tests)
-    if (!test.is_disturbed() && is_alike(test, levelled)) return test.name + ".distance_m";
+    if (!test.is_disturbed() && is_alike(test, levelled)) measures.push_back(test.name + ".distance_m");
+  if (!measures.empty()) return measures;
   const bool at_home = levelled.engine.empty() && is_plain(levelled);
   const bool undisturbed = std::ranges::all_of(data.records, [&](const ledger::Record& run) {
     return !levelled.applies_to(run.condition) || walked_undisturbed(run, levelled.seconds);
   });
-  return at_home && undisturbed ? "train_m" : "";
+  if (at_home && undisturbed) measures.push_back("train_m");
+  return measures;
 }
 
 /// How strong a level is: its place among all.
@@ -48,8 +51,14 @@ std::size_t strength(const TypicalTable::Column& column) {
 
 std::optional<TypicalPoint> make_point(const StudyData& data, const std::string& condition,
                                        const TypicalTable& table, std::size_t column) {
-  const std::string& measure = table.columns[column].measure;
+  // Conditions may have a test of their own at the same level.
+  const auto& measures = table.columns[column].measures;
+  const auto found = std::ranges::find_if(
+      measures, [&](const std::string& each) { return !data.values(condition, each).empty(); });
+  if (found == measures.end()) return std::nullopt;
+  const std::string& measure = *found;
   TypicalPoint point{.column = column,
+                     .measure = measure,
                      .distances_m = data.values(condition, measure),
                      .summary = {},
                      .median = {},
@@ -77,13 +86,16 @@ TypicalTable make_table(const StudyData& data, const ledger::TestSpec& first) {
                      .as_in = is_plain(first) ? "" : first.name,
                      .columns = {},
                      .curves = {}};
-  if (const std::string measure = undisturbed_measure(data, first); !measure.empty())
-    table.columns.push_back({.measure = measure, .level = ""});
+  if (auto measures = undisturbed_measures(data, first); !measures.empty())
+    table.columns.push_back({.level = "", .measures = std::move(measures)});
   const auto undisturbed = static_cast<std::ptrdiff_t>(table.columns.size());
-  for (const ledger::TestSpec& test : data.study.tests)
-    if (!test.level.empty() && is_alike(test, first) &&
-        std::ranges::find(table.columns, test.level, &TypicalTable::Column::level) == table.columns.end())
-      table.columns.push_back({.measure = test.name + ".distance_m", .level = test.level});
+  for (const ledger::TestSpec& test : data.study.tests) {
+    if (test.level.empty() || !is_alike(test, first)) continue;
+    auto column = std::ranges::find(table.columns, test.level, &TypicalTable::Column::level);
+    if (column == table.columns.end())
+      column = table.columns.insert(column, {.level = test.level, .measures = {}});
+    column->measures.push_back(test.name + ".distance_m");
+  }
   std::ranges::stable_sort(table.columns.begin() + undisturbed, table.columns.end(), {}, strength);
   for (const ledger::ConditionSpec& condition : data.study.conditions) {
     TypicalCurve curve{.condition = condition.name, .points = {}};

@@ -14,6 +14,7 @@ namespace amble::report {
 /// typical distance, m: the median of its trials.
 struct TypicalPoint {
   std::size_t column = 0;           ///< of TypicalTable::columns
+  std::string measure;              ///< the one of the column's that the condition has
   std::vector<double> distances_m;  ///< by run
   statistics::Summary summary;
   std::optional<statistics::BootstrapInterval> median;  ///< BCa; from fewest_resampled runs on
@@ -30,8 +31,9 @@ struct TypicalCurve {
 /// Tests that differ in nothing but their level of disturbance (TestSpec::level).
 struct TypicalTable {
   struct Column {
-    std::string measure;  ///< "milli.distance_m"; undisturbed: of a test without noise, or "train_m"
-    std::string level;    ///< empty: undisturbed
+    std::string level;  ///< empty: undisturbed
+    std::vector<std::string>
+        measures;  ///< "milli.distance_m"; undisturbed: of a test without noise, or "train_m"
   };
 
   std::string engine;  ///< empty: that of the runs

@@ -86,13 +86,14 @@ std::string too_few(const StudyData& data, const std::string& condition, std::si
   return fmt::format("Too few runs: {} has {}, {} are needed.", label, n, needed);
 }
 
-std::string without_mean(const StudyData& data, const std::string& condition,
+std::string without_mean(const StudyData& data, const std::string& condition, const std::string& measure,
                          const std::vector<double>& values) {
   const auto never =
       to_index(std::ranges::count_if(values, [](double value) { return !std::isfinite(value); }));
   if (never == 0) return {};
-  return fmt::format("{} of {} of {} never reached it: there is no mean.", never,
-                     counted(values.size(), "run"), data.study.find(condition)->label());
+  const bool is_cost = measure.ends_with(".cost_of_transport");
+  return fmt::format("{} of {} of {} {}: there is no mean.", never, counted(values.size(), "run"),
+                     data.study.find(condition)->label(), is_cost ? "went nowhere" : "never reached it");
 }
 
 Judgement judge_count_of(const StudyData& data, const ledger::ClaimSpec& claim,

@@ -62,7 +62,8 @@ std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim
   judgement.n_against = others.size();
   judgement.planned_against = data.planned(claim.threshold_condition);
   judgement.reason = too_few(data, claim.threshold_condition, others.size(), 2);
-  if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.threshold_condition, others);
+  if (judgement.reason.empty())
+    judgement.reason = without_mean(data, claim.threshold_condition, claim.measure, others);
   if (!judgement.reason.empty()) return std::nullopt;
   return statistics::mean(others);
 }

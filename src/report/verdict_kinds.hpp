@@ -24,8 +24,9 @@ Judgement begin_judgement(const StudyData& data, const ledger::ClaimSpec& claim,
 /// "supg: 1 run has the measure, a test needs 2", or nothing if there are enough.
 std::string too_few(const StudyData& data, const std::string& condition, std::size_t n, std::size_t needed);
 
-/// "2 of 3 runs of supg never reached it: there is no mean." of infinite values; nothing if all are finite.
-std::string without_mean(const StudyData& data, const std::string& condition,
+/// "2 of 3 runs of supg never reached it: there is no mean." of infinite values of a measure; nothing if all
+/// are finite.
+std::string without_mean(const StudyData& data, const std::string& condition, const std::string& measure,
                          const std::vector<double>& values);
 
 }  // namespace amble::report

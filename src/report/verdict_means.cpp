@@ -34,8 +34,8 @@ std::optional<double> mean_of(const std::vector<double>& values) {
 /// Says so if one of them has no mean.
 bool have_means(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples,
                 Judgement& judgement) {
-  judgement.reason = without_mean(data, claim.condition, samples.first);
-  const std::string against = without_mean(data, claim.against, samples.second);
+  judgement.reason = without_mean(data, claim.condition, claim.measure, samples.first);
+  const std::string against = without_mean(data, claim.against, claim.measure, samples.second);
   if (!judgement.reason.empty() && !against.empty()) judgement.reason += " ";
   judgement.reason += against;
   return judgement.reason.empty();
@@ -146,8 +146,9 @@ Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   if (!judgement.reason.empty()) return judgement;
   judgement.mean = mean_of(numerators);
   judgement.mean_against = mean_of(denominators);
-  for (const auto* values : {&numerators, &denominators})
-    if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, *values);
+  for (const auto& [measure, values] :
+       {std::pair(&claim.measure, &numerators), std::pair(&claim.base_measure, &denominators)})
+    if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, *measure, *values);
   if (!judgement.reason.empty()) return judgement;
   use_bootstrap(statistics::bootstrap_paired_ratio(numerators, denominators), judgement);
   return judgement;
@@ -267,7 +268,7 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   Judgement judgement = begin_judgement(data, claim, sample.size());
   judgement.quantity = "mean";
   judgement.reason = too_few(data, claim.condition, judgement.n, 2);
-  if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, sample);
+  if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, claim.measure, sample);
   if (!judgement.reason.empty()) return judgement;
   const auto moments = *statistics::moments(sample);
   const statistics::Moments published{to_index(claim.runs), claim.mean, claim.sd};

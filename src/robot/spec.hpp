@@ -42,6 +42,9 @@ struct Geom {
   std::vector<std::array<int, 3>> triangles = {};
 };
 
+/// Colour, in recordings, of the geoms of a leg that a damage took away (damage::as_drawn).
+inline constexpr std::array gone_rgba{0.9f, 0.9f, 0.9f, 0.25f};
+
 /// A rigid body. `position_m` and `rotation` are the pose of its frame in the parent's frame while all joints
 /// are at zero; of the root (parent −1) in the world: the start pose.
 struct Body {

@@ -169,7 +169,11 @@ double tracking(const record::Trajectory& trajectory, const Context& context) {
 }
 
 std::optional<double> switch_s(const record::Trajectory& trajectory, const Context& context) {
-  const std::vector<Second> seconds = seconds_of(trajectory);
+  std::vector<Second> seconds = seconds_of(trajectory);
+  const std::size_t lasted = seconds.size();
+  const auto& commands = trajectory.command_by_second;
+  for (std::size_t k = lasted; 2 * k + 1 < commands.size(); ++k)
+    seconds.push_back({.speed_m_s = commands[2 * k], .turn_rad_s = commands[2 * k + 1]});
   std::size_t waited = 0, changes = 0;
   bool waits = false, changed_before = false;
   for (std::size_t k = 0; k < seconds.size(); ++k) {
@@ -180,7 +184,7 @@ std::optional<double> switch_s(const record::Trajectory& trajectory, const Conte
       ++changes;
     }
     changed_before = changes_now;
-    if (waits && seconds[k].follows()) waits = false;
+    if (waits && k < lasted && seconds[k].follows()) waits = false;
     if (waits) ++waited;
   }
   if (changes == 0) return std::nullopt;

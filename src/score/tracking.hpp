@@ -59,9 +59,9 @@ double tracking(const record::Trajectory& trajectory, const Context& context);
 inline constexpr double followed_speed_m_s = 0.1, followed_turn_rad_s = 0.2;
 
 /// Mean over the changes of command, s, of the whole seconds from a change to the first second that follows;
-/// one that none follows until the next change, or the end of the trial, counts all of them, those that a
-/// fall cuts off too. The start is a change unless a stop is commanded; seconds of a ramp are one until one
-/// of them follows. Nothing without a change.
+/// one that none follows until the next change, or the end of the trial, counts all of them. Seconds that a
+/// fall cuts off count as well, and so do the commands that would have come in them. The start is a change
+/// unless a stop is commanded; seconds of a ramp are one until one of them follows. Nothing without a change.
 std::optional<double> switch_s(const record::Trajectory& trajectory, const Context& context);
 
 }  // namespace amble::score

@@ -14,10 +14,13 @@
 namespace amble::search {
 namespace {
 
-/// Position in the descriptor's range, 0 … 1.
+/// Position in the descriptor's range, 0 … 1 within it.
+double place_of(const DescriptorSettings& descriptor, float value) {
+  return (double{value} - descriptor.least) / (descriptor.most - descriptor.least);
+}
+
 float scaled(const DescriptorSettings& descriptor, float value) {
-  const double share = (double{value} - descriptor.least) / (descriptor.most - descriptor.least);
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+  return static_cast<float>(std::clamp(place_of(descriptor, value), 0.0, 1.0));
 }
 
 }  // namespace
@@ -33,8 +36,8 @@ std::uint32_t GridCells::of(std::span<const float> descriptor) const {
   std::uint32_t cell = 0;
   for (std::size_t i = 0; i < descriptors_.size(); ++i) {
     const DescriptorSettings& dimension = descriptors_[i];
-    const double share = (double{descriptor[i]} - dimension.least) / (dimension.most - dimension.least);
-    const double bin = std::clamp(std::floor(share * dimension.bins), 0.0, dimension.bins - 1.0);
+    const double place = place_of(dimension, descriptor[i]);
+    const double bin = std::clamp(std::floor(place * dimension.bins), 0.0, dimension.bins - 1.0);
     cell = cell * static_cast<std::uint32_t>(dimension.bins) + static_cast<std::uint32_t>(bin);
   }
   return cell;
@@ -44,7 +47,7 @@ double GridCells::share_inside(std::span<const float> descriptor, double deviati
   double share = 1.0;
   for (std::size_t i = 0; i < descriptors_.size(); ++i) {
     const DescriptorSettings& dimension = descriptors_[i];
-    const double place = (double{descriptor[i]} - dimension.least) / (dimension.most - dimension.least);
+    const double place = place_of(dimension, descriptor[i]);
     const double bin = std::clamp(std::floor(place * dimension.bins), 0.0, dimension.bins - 1.0);
     // The outermost bins have what is beyond them as well.
     const double below = bin > 0.0 ? statistics::normal_cdf((bin / dimension.bins - place) / deviation) : 0.0;
@@ -57,9 +60,9 @@ double GridCells::share_inside(std::span<const float> descriptor, double deviati
 }
 
 /// k-d tree (Bentley 1975) over points in the unit cube: exact nearest neighbour.
-class CentroidCells::Tree {
+class CentroidTree {
  public:
-  Tree(std::span<const float> points, std::size_t dimensions)
+  CentroidTree(std::span<const float> points, std::size_t dimensions)
       : points_(points), dimensions_(dimensions), order_(points.size() / dimensions), split_(order_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     build(0, order_.size());
@@ -128,11 +131,42 @@ class CentroidCells::Tree {
   std::vector<std::uint8_t> split_;  ///< dimension of each node
 };
 
+namespace {
+
+/// Half the edge of a cube with a cell's share of the volume.
+double half_edge(std::size_t cells, std::size_t dimensions) {
+  return 0.5 * std::pow(static_cast<double>(cells), -1.0 / static_cast<double>(dimensions));
+}
+
+/// CentroidCells::reaches_: a cell reaches an end of a dimension if its centroid, moved there, is still in
+/// it.
+std::vector<std::uint8_t> reached_ends(const CentroidTree& tree, std::span<const float> centroids,
+                                       std::size_t dimensions) {
+  const std::size_t count = centroids.size() / dimensions;
+  const double near = 4.0 * half_edge(count, dimensions);  // no cell is so long; looking costs time
+  std::vector<std::uint8_t> reaches;
+  reaches.reserve(2 * centroids.size());
+  std::vector<float> point(dimensions);
+  for (std::size_t cell = 0; cell < count; ++cell) {
+    std::ranges::copy(centroids.subspan(cell * dimensions, dimensions), point.begin());
+    for (float& coordinate : point)
+      for (const float end : {0.0f, 1.0f}) {
+        const float own = std::exchange(coordinate, end);
+        reaches.push_back(std::abs(end - own) < near && tree.nearest(point.data()) == cell);
+        coordinate = own;
+      }
+  }
+  return reaches;
+}
+
+}  // namespace
+
 CentroidCells::CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids)
     : descriptors_(descriptors.begin(), descriptors.end()),
       dimensions_(descriptors.size()),
       centroids_(std::move(centroids)),
-      tree_(std::make_unique<const Tree>(centroids_, dimensions_)) {
+      tree_(std::make_unique<const CentroidTree>(centroids_, dimensions_)),
+      reaches_(reached_ends(*tree_, centroids_, dimensions_)) {
   AMBLE_CHECK(dimensions_ > 0 && dimensions_ < 256 && !centroids_.empty(), "there is a cell");
 }
 
@@ -146,13 +180,15 @@ std::uint32_t CentroidCells::of(std::span<const float> descriptor) const {
 }
 
 double CentroidCells::share_inside(std::span<const float> descriptor, double deviation) const {
-  const float* const centroid = centroids_.data() + of(descriptor) * dimensions_;
-  const double half = 0.5 * std::pow(count(), -1.0 / static_cast<double>(dimensions_));
+  const std::size_t first = of(descriptor) * dimensions_;
+  const double half = half_edge(count(), dimensions_);
   double share = 1.0;
   for (std::size_t i = 0; i < dimensions_; ++i) {
-    const double from_centre = double{scaled(descriptors_[i], descriptor[i])} - double{centroid[i]};
-    share *= statistics::normal_cdf((half - from_centre) / deviation) -
-             statistics::normal_cdf((-half - from_centre) / deviation);
+    const double from_centre = place_of(descriptors_[i], descriptor[i]) - double{centroids_[first + i]};
+    const std::uint8_t* const reaches = &reaches_[2 * (first + i)];
+    const double below = reaches[0] ? 0.0 : statistics::normal_cdf((-half - from_centre) / deviation);
+    const double above = reaches[1] ? 0.0 : statistics::normal_cdf((from_centre - half) / deviation);
+    share *= 1.0 - below - above;
   }
   return share;
 }
@@ -166,16 +202,15 @@ std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, s
   for (float& value : points) value = static_cast<float>(stream.uniform());
   std::vector<float> centroids(points.begin(),
                                points.begin() + static_cast<std::ptrdiff_t>(count * dimensions));
-  const std::vector<DescriptorSettings> unit(dimensions);
   std::vector<std::uint32_t> nearest(samples, std::numeric_limits<std::uint32_t>::max());
   for (int round = 0; round < most_rounds; ++round) {
-    const CentroidCells cells(unit, centroids);
+    const CentroidTree cells(centroids, dimensions);
     bool changed = false;
     std::vector<double> sums(count * dimensions);
     std::vector<std::size_t> members(count);
     for (std::size_t i = 0; i < samples; ++i) {
       const std::span<const float> point = std::span(points).subspan(i * dimensions, dimensions);
-      const std::uint32_t cell = cells.of(point);
+      const std::uint32_t cell = cells.nearest(point.data());
       changed |= std::exchange(nearest[i], cell) != cell;
       ++members[cell];
       for (std::size_t d = 0; d < dimensions; ++d) sums[cell * dimensions + d] += double{point[d]};

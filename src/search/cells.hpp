@@ -37,6 +37,8 @@ class GridCells : public Cells {
   std::uint32_t count_ = 1;
 };
 
+class CentroidTree;  // cells.cpp
+
 /// The cells nearest to centroids (CVT-MAP-Elites, Vassiliades, Chatzilygeroudis & Mouret 2018), each
 /// descriptor scaled to 0 … 1 over its range. Of equally near centroids the one with the lowest number.
 class CentroidCells : public Cells {
@@ -46,7 +48,8 @@ class CentroidCells : public Cells {
   ~CentroidCells() override;
   std::uint32_t count() const override { return static_cast<std::uint32_t>(centroids_.size() / dimensions_); }
   std::uint32_t of(std::span<const float> descriptor) const override;
-  /// As if the cell were a cube around its centroid, with its share of the volume.
+  /// As if the cell were a cube around its centroid, with its share of the volume, that goes on beyond the
+  /// ends of ranges which the cell reaches.
   double share_inside(std::span<const float> descriptor, double deviation) const override;
   std::span<const float> centroids() const { return centroids_; }
 
@@ -54,8 +57,9 @@ class CentroidCells : public Cells {
   std::vector<DescriptorSettings> descriptors_;
   std::size_t dimensions_;
   std::vector<float> centroids_;
-  class Tree;
-  std::unique_ptr<const Tree> tree_;
+  std::unique_ptr<const CentroidTree> tree_;
+  std::vector<std::uint8_t>
+      reaches_;  ///< by cell, dimension and end, the lower one first: 1 where it reaches it
 };
 
 /// Centroids spread evenly over the unit cube: Lloyd's algorithm on `samples` uniform points, from as many of

@@ -68,8 +68,8 @@ double worth(const Cells& cells, const Elite& elite, std::span<const float> desc
   return elite.objective * staying_probability(cells, elite, descriptor);
 }
 
-std::vector<Challenger> most_promising(std::vector<Challenger> challengers, std::size_t most,
-                                       const Cells& cells, const Elites& elites) {
+Selected most_promising(std::vector<Challenger> challengers, std::size_t most, const Cells& cells,
+                        const Elites& elites) {
   // Those that have been tried again first, then the largest gain first, of equal ones the first.
   std::vector<std::tuple<bool, double, std::size_t>> ranks;
   for (std::size_t i = 0; i < challengers.size(); ++i) {
@@ -80,14 +80,21 @@ std::vector<Challenger> most_promising(std::vector<Challenger> challengers, std:
   }
   std::ranges::sort(ranks);
   std::set<std::uint32_t> taken;
-  std::vector<std::size_t> kept;
+  std::vector<bool> kept(challengers.size());
+  std::size_t count = 0;
   for (const auto& [is_new, loss, i] : ranks)
-    if (kept.size() < most && taken.insert(challengers[i].elite.cell).second) kept.push_back(i);
-  std::ranges::sort(kept);
-  std::vector<Challenger> promising;
-  promising.reserve(kept.size());
-  for (const std::size_t i : kept) promising.push_back(std::move(challengers[i]));
-  return promising;
+    if (count < most && taken.insert(challengers[i].elite.cell).second) {
+      kept[i] = true;
+      ++count;
+    }
+  Selected selected;
+  selected.promising.reserve(count);
+  for (std::size_t i = 0; i < challengers.size(); ++i)
+    if (kept[i])
+      selected.promising.push_back(std::move(challengers[i]));
+    else
+      selected.parents_of_dropped.push_back(challengers[i].parent);
+  return selected;
 }
 
 void save_challengers(std::span<const Challenger> challengers, io::BinaryWriter& writer) {

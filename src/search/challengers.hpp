@@ -27,12 +27,17 @@ double staying_probability(const Cells& cells, const Elite& elite, std::span<con
 /// probability.
 double worth(const Cells& cells, const Elite& elite, std::span<const float> descriptor);
 
+struct Selected {
+  std::vector<Challenger> promising;
+  std::vector<EliteName> parents_of_dropped;  ///< of the others, in their order
+};
+
 /// Those that are tried: one in each cell and at most `most`, in the order in which they were: first those
 /// that have been tried again, then those with the largest gains, by how much their objective exceeds that of
 /// their cell's elite times the probability that they stay. One in each cell, since challengers are parents
 /// as well: by their gains alone they would be children of a few.
-std::vector<Challenger> most_promising(std::vector<Challenger> challengers, std::size_t most,
-                                       const Cells& cells, const Elites& elites);
+Selected most_promising(std::vector<Challenger> challengers, std::size_t most, const Cells& cells,
+                        const Elites& elites);
 
 void save_challengers(std::span<const Challenger> challengers, io::BinaryWriter& writer);
 /// Throws UserError(bad_file) for more than `most`, or those that do not fit a map of so many cells and

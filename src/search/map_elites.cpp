@@ -195,7 +195,10 @@ void MapElites::tell(std::span<const Evaluation> evaluations) {
   }
   if (emitters_) tell_emitters(evaluations);
   if (pool_) fill_pool(evaluations);
-  challengers_ = most_promising(std::move(challengers_), settings_.most_challengers(), *cells_, elites());
+  Selected selected =
+      most_promising(std::move(challengers_), settings_.most_challengers(), *cells_, elites());
+  challengers_ = std::move(selected.promising);
+  for (const EliteName& parent : selected.parents_of_dropped) credit_parent(parent, false);
   ++round_;
   before_ = innovations_;
   breed();

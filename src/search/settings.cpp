@@ -129,8 +129,9 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("centroid_seed", centroid_seed, {0, 1e18},
                   {"seed of these points: runs with other seeds still have the same cells"});
   visitor.integer("batch", batch, {1, 1e6}, {"genomes evaluated in a round (a generation)"});
-  visitor.integer("initial", initial, {1, 1e9},
-                  {"random genomes in the first rounds, rounded up to whole rounds"});
+  visitor.integer(
+      "initial", initial, {1, 1e9},
+      {"random genomes in the first rounds, rounded up to whole rounds; none where variation is cma"});
   visitor.choice(
       "select", select, selection_names,
       {"parents: any elite; of two elites that with the better objective, or the more curious; or any of a "

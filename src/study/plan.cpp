@@ -235,12 +235,23 @@ void check_measures(const Plan& plan) {
   }
 }
 
+/// The same of its map's corrected figures. A record without their number is older than that.
+std::string map_misfit(int map_trials, const ledger::Record& record) {
+  if (map_trials == 0 || record.map_figures.empty()) return {};
+  if (!record.map_figures.contains("corrected_coverage"))
+    return fmt::format("its map was not tried again, and map_trials is {}", map_trials);
+  if (record.map_trials == 0 || record.map_trials == map_trials) return {};
+  return fmt::format("its map was tried again with map_trials = {} instead of {}", record.map_trials,
+                     map_trials);
+}
+
 /// Why a record does not fit; empty if it does, or only lacks tests. `folder`: that of its run.
-std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record,
+std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record, int map_trials,
                           const fs::path& folder) {
   if (record.config != condition.recorded_hash()) return "made with other settings or another robot";
   if (record.generations != condition.config.generations)
     return fmt::format("{} generations instead of {}", record.generations, condition.config.generations);
+  if (std::string misfit = map_misfit(map_trials, record); !misfit.empty()) return misfit;
   for (const PlannedTest& test : condition.tests) {
     const auto* const result = record.find_test(test.spec.name);
     if (result != nullptr && result->settings != test.settings_hash(condition.config.engine))
@@ -277,7 +288,7 @@ Finding look_at(const Plan& plan, const ledger::Ledger& ledger, const PlannedRun
     const auto record = ledger.load(condition.spec.name, run.seed);
     return {.status = condition.has_all_tests(record) ? RunStatus::done : RunStatus::untested,
             .place = plan.paths.record(condition.spec.name, run.seed),
-            .misfit = record_misfit(condition, record, plan.folder(run))};
+            .misfit = record_misfit(condition, record, plan.study.map_trials, plan.folder(run))};
   }
   const auto folder = plan.folder(run);
   if (!experiment::is_run_folder(folder)) return {};

@@ -35,7 +35,7 @@ std::string slurm_script(const SlurmJob& job) {
 #SBATCH --signal=B:USR1@60
 #SBATCH --output=slurm-%A_%a.out
 
-{program} study {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "{jobs}"{more} &
+{plugins}{program} study {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "{jobs}"{more} &
 child=$!
 out_of_time=
 trap 'out_of_time=1; kill -TERM $child 2>/dev/null' USR1  # a minute before the time limit
@@ -54,6 +54,9 @@ exit $code
       fmt::arg("jobs", cpus),
       fmt::arg("more", (job.per_run == 1 ? "" : fmt::format(" --per-run {}", job.per_run)) +
                            (job.discard_runs ? " --discard-runs" : "")),
+      fmt::arg("plugins", job.plugins.empty()
+                              ? std::string()
+                              : fmt::format("export AMBLE_PLUGINS={}\n", io::shell_quoted(job.plugins))),
       fmt::arg("minutes", job.minutes), fmt::arg("program", io::shell_quoted(job.program.string())),
       fmt::arg("file", io::shell_quoted(job.file.string())),
       fmt::arg("out", io::shell_quoted(job.out.string())));

@@ -13,7 +13,8 @@ struct SlurmJob {
   int jobs = 1;                              ///< processors of a task
   int per_run = 1;                           ///< of these for each run
   bool discard_runs = false;                 ///< WorkOptions::discard_runs
-  int minutes = 60;                          ///< time limit of a task; one that needs longer is requeued
+  std::string plugins = {};  ///< AMBLE_PLUGINS: shared libraries of the study's kinds, split by colons
+  int minutes = 60;          ///< time limit of a task; one that needs longer is requeued
 };
 
 /// The batch script for sbatch. Each task works on its shard until it is done; a task near its time limit

@@ -189,6 +189,7 @@ class Worker {
     record.map_figures["corrected_coverage"] = corrected->coverage();
     record.map_figures["corrected_qd_score"] = corrected->qd_score();
     record.map_figures["staying_share"] = corrected->staying_share();
+    record.map_trials = plan_.study.map_trials;
     return true;
   }
 

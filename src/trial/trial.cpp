@@ -157,6 +157,7 @@ void Runner::after_step(int lane, TaskQueue& queue) {
   slot.trajectory.forward_end_y = slot.trajectory.forward_y;
   if (*outcome != record::Outcome::diverged)
     note_forward(lane, slot.trajectory.forward_end_x, slot.trajectory.forward_end_y);
+  if (*outcome != record::Outcome::completed && protocol_.measures.commands) note_missed_commands(slot);
   queue.done(slot.task.index, std::move(slot.trajectory));
   refill(lane, queue);
 }
@@ -274,6 +275,19 @@ void Runner::note_seconds(int lane) {
                                         {slot.speed_sum_m_s / steps, slot.turn_sum_rad_s / steps});
   slot.speed_sum_m_s = slot.turn_sum_rad_s = 0.0;
   slot.second_begins = trajectory.steps;
+}
+
+/// Those of the seconds that a trial was cut off from.
+void Runner::note_missed_commands(Lane& slot) const {
+  const CommandSchedule* const commands = commands_of(slot.task);
+  if (commands == nullptr) return;
+  std::vector<double>& noted = slot.trajectory.command_by_second;
+  for (int step = slot.trajectory.steps; step <= protocol_.steps; ++step) {
+    if (record::second_count(step * protocol_.timestep_s) <= static_cast<int>(noted.size() / 2)) continue;
+    const Command command = commands->at(step - 1);
+    noted.insert(noted.end(),
+                 {static_cast<double>(command.speed_m_s), static_cast<double>(command.turn_rad_s)});
+  }
 }
 
 void Runner::note_footfalls(int lane) {

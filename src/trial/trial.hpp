@@ -141,6 +141,7 @@ class Runner {
   void note_footfalls(int lane);
   void note_seconds(int lane);
   const CommandSchedule* commands_of(const Task& task) const;
+  void note_missed_commands(Lane& slot) const;
 
   physics::Engine* engine_;
   controllers::Batch& controllers_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -42,13 +43,30 @@ TEST(GaussianProcess, WithOneObservationIsTheClosedForm) {
   }
 }
 
-TEST(GaussianProcess, GoesTheShortWayRoundWhereADimensionIsACircle) {
+TEST(GaussianProcess, TakesTheChordWhereADimensionIsACircle) {
   GaussianProcess process(2, 0.4, 0.1, {0.0, 1.0});
   process.observe(Point{0.2, 0.05}, 3.0);
-  EXPECT_NEAR(process.predict(Point{0.3, 0.95}).mean, 3.0 * matern({0.2, 0.05}, {0.3, -0.05}, 0.4) / 1.1,
+  const double chord = std::sin(0.1 * std::numbers::pi) / std::numbers::pi;  // of a tenth of the turn
+  EXPECT_NEAR(process.predict(Point{0.3, 0.95}).mean, 3.0 * matern({0.2, chord}, {0.3, 0.0}, 0.4) / 1.1,
               1e-14);
+  EXPECT_NEAR(process.predict(Point{0.2, 0.55}).mean,
+              3.0 * matern({0.0, 1.0 / std::numbers::pi}, {0.0, 0.0}, 0.4) / 1.1, 1e-14)
+      << "the diameter";
   EXPECT_NEAR(process.predict(Point{0.95, 0.05}).mean, 3.0 * matern({0.2, 0.05}, {0.95, 0.05}, 0.4) / 1.1,
               1e-14);
+}
+
+/// By the way round a kernel of these points would have eigenvalues below 0.
+TEST(GaussianProcess, KnowsNothingForSureOfACircleThatItHasSeenAFewPointsOf) {
+  for (const std::size_t points : {4u, 8u, 12u, 20u}) {
+    GaussianProcess process(1, 0.4, 0.001, {1.0});
+    for (std::size_t i = 0; i < points; ++i) {
+      const double place = static_cast<double>(i) / static_cast<double>(points);
+      process.observe(Point{place}, std::sin(4.0 * std::numbers::pi * place));
+      EXPECT_NEAR(process.predict(Point{place}).mean, std::sin(4.0 * std::numbers::pi * place), 0.05);
+    }
+    EXPECT_GT(process.predict(Point{0.5 / static_cast<double>(points)}).variance, 0.0) << points;
+  }
 }
 
 TEST(GaussianProcess, WithTwoObservationsIsTheClosedForm) {

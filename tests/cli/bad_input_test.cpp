@@ -163,6 +163,9 @@ TEST_F(BadInput, SeedOrGenerationsThatAreNone) {
   for (const auto* seed : {"-1", "1.5", "one", "99999999999999999999"})
     expect_refusal({"evolve", config, "--seed", seed, "--out", out_}, ExitCode::bad_input,
                    std::string("--seed: ") + seed + ": expected a whole number from 0 to 9007199254740992");
+  for (const auto* octal : {"010", "007", "0x10"})
+    expect_refusal({"evolve", config, "--seed", octal, "--out", out_}, ExitCode::bad_input,
+                   std::string("--seed: ") + octal + ": expected a whole number without a leading 0");
   expect_refusal({"evolve", config, "--generations", "0", "--out", out_}, ExitCode::bad_input,
                  "--generations: 0: expected a whole number from 1 to 1000000000");
 }

@@ -258,6 +258,15 @@ TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   expect_refusal({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
                  "the map has the cells 0 … 624");
   expect_refusal({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
+  expect_refusal({"repertoire", folder, "--cell", "0470", "-o", out}, ExitCode::bad_input,
+                 "without a leading 0");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"repertoire", folder, "--cell", "0"},
+        {"export", folder, "--format", "json"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"-o", folder + "/champions/00000.json"});
+    expect_refusal(arguments, ExitCode::bad_input, "a run keeps its own champions there");
+  }
   expect_refusal({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
                  "expected FILE.html, FILE.json, FILE.csv or FILE.svg");
   expect_refusal({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");

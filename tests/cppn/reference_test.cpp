@@ -72,6 +72,19 @@ TEST(Reference, AgreesWithTheNetworkWithCyclesOfFewPasses) {
   }
 }
 
+TEST(Reference, AgreesWithTheNetworkWhereAChainOfOutputsIsLongerThanItsPasses) {
+  using neat::Activation;
+  using neat::NodeKind;
+  neat::Genome chain{{{0, NodeKind::bias, Activation::linear}, {1, NodeKind::input, Activation::linear}}, {}};
+  for (std::uint32_t id = 2; id < 6; ++id) {
+    chain.nodes.push_back({id, NodeKind::output, Activation::sine});
+    chain.links.push_back({id - 2, id - 1, id, 0.7});
+  }
+  Stream stream(34, Purpose::test);
+  for (const Passes passes : {Passes::twice_hidden_plus_1, Passes::twice_hidden_plus_3})
+    EXPECT_LT(largest_difference(chain, {Linear::absolute, true, passes}, stream), 1e-5);
+}
+
 Points random_points(int inputs, Stream& stream) {
   Points points(inputs, 100);
   for (int p = 0; p < points.count(); ++p)

@@ -3,6 +3,7 @@
     typical_table_test.py SOURCES
 """
 
+import json
 import shutil
 import subprocess
 import sys
@@ -37,6 +38,15 @@ class TypicalTable(unittest.TestCase):
         self.assertNotIn("servo-supg", done.stdout)
         self.assertIn("| `gallery`, hexapod-supg | 10 |", done.stdout)
         self.assertIn("left out servo-supg, runs missing: 1", done.stderr)
+
+    def test_a_condition_with_a_run_that_lacks_a_test_has_none_and_is_named(self):
+        path = self.results / "ledger/servo-supg-002.json"
+        record = json.loads(path.read_text())
+        record["tests"] = [test for test in record["tests"] if test["name"] != "milli"]
+        path.write_text(json.dumps(record))
+        done = self.table()
+        self.assertNotIn("servo-supg", done.stdout)
+        self.assertIn("left out servo-supg, runs without a test of 15 s at milli", done.stderr)
 
 
 if __name__ == "__main__":

@@ -90,6 +90,7 @@ TEST_P(EachChampion, AnswersRecordedSensorsWithRecordedTargetsToTheBit) {
   for (const Build& build :
        {Build{"gcc", "gcc", "-O2", slow ? some : all},
         {"clang", "clang-14", "-O2", some},
+        {"clang_native", "clang-14", "-O2 -march=native", some},
         {"gcc_native", "gcc", "-O3 -march=native", slow ? all : some},
         {"sanitized", "clang-14", "-O1 -fsanitize=address,undefined -fno-sanitize-recover=all", some}}) {
     ASSERT_EQ(

@@ -146,5 +146,48 @@ TEST(SteeredByHand, AHeadingIsAheadOfABlockedRobotByItsLeadAndComesBackAtOnce) {
   EXPECT_EQ(run_shell("'" + (scratch / "blocked").string() + "'").out, "0.750 0.250\n");
 }
 
+/// A walker that is told to turn, and whose yaw is lost.
+constexpr std::string_view lost_main = R"(#include <math.h>
+#include <stdio.h>
+#include "walker.h"
+int main(void) {
+  walker_state state;
+  walker_sensors in = {0};
+  walker_targets targets;
+  int tick;
+  walker_init(&state);
+  walker_set_command(&state, 0.3f, 0.35f);
+  for (tick = 0; tick < 200; ++tick) {
+    in.yaw_rad = tick < 100 ? (float)tick * 0.0035f : NAN;
+    walker_step(&state, &in, &targets);
+  }
+  printf("%.2f %.2f %.3f\n", (double)state.factor[0], (double)state.factor[1], (double)state.heading_error_rad);
+  return 0;
+}
+)";
+
+TEST(SteeredByHand, ATurnIsStillObeyedWhereTheYawIsLost) {
+  const auto samples = walkers();
+  const auto plain = std::ranges::find(samples, "quadruped_supg", &Sample::name);
+  ASSERT_NE(plain, samples.end());
+  experiment::Champion champion = evolve(*plain);
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.35}}});
+  champion.problem.set_differential({.turn_gain = 2.0, .heading_gain = 2.0});
+  const TemporaryFolder scratch;
+  write_walker(scratch.path(), champion);
+  io::write_file(scratch / "lost.c", lost_main);
+  ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags, scratch / "lost.c", "lost"), "");
+  EXPECT_EQ(run_shell("'" + (scratch / "lost").string() + "'").out, "0.30 1.00 0.000\n");
+}
+
+TEST_P(EachWalker, IsNotCompiledToOtherBits) {
+  experiment::Champion champion = evolve(GetParam());
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}}});
+  experiment::steer_by_hand(champion.problem, {{.turn_gain = 2.0}, {}});
+  const TemporaryFolder scratch;
+  write_walker(scratch.path(), champion);
+  EXPECT_NE(compile(scratch.path(), "gcc", "-std=c99 -ffast-math -DWALKER_SELF_TEST", {}, "self"), "");
+}
+
 }  // namespace
 }  // namespace amble::tests

@@ -120,6 +120,32 @@ TEST(Silhouettes, ComeFromFarToNear) {
             0);
 }
 
+TEST(SideView, HasNoLegThatADamageTookAway) {
+  auto recorded = tests::walk(1);
+  const int frame = 0;
+  const auto limbs = [&] {
+    Svg svg(100, 100, "");
+    const auto views = side_views(recorded.robot, recorded.motion, {&frame, 1});
+    draw_robot(svg, recorded.robot, recorded.motion, views[0],
+               {.box = {0, 0, 100, 100}, .ground_px = 90, .px_per_m = 20});
+    const std::string text = svg.finish();
+    std::size_t count = 0;
+    for (std::size_t at = text.find("class=\"limb\""); at != std::string::npos;
+         at = text.find("class=\"limb\"", at + 1))
+      ++count;
+    return count;
+  };
+  const std::size_t before = limbs();
+  std::size_t gone = 0;
+  for (robot::Geom& geom : recorded.robot.geoms)
+    if (recorded.robot.leg_of_body(geom.body) == 1) {
+      geom.rgba = robot::gone_rgba;
+      ++gone;
+    }
+  EXPECT_GT(gone, 1u);
+  EXPECT_LT(limbs(), before);
+}
+
 TEST(MeanHeading, IsTheWayItWent) {
   motion::Motion motion = tests::walk(10).motion;
   motion.com_m.back() = motion.com_m.front() + Vec3{0, -2, 5};

@@ -56,6 +56,7 @@ TEST(GroundSettings, ASlopeKeepsGravitysMagnitudeAndLeansItDownhill) {
   EXPECT_NEAR(gravity.z, -9.8 * std::cos(0.2), 1e-12);
   settings.slope_y = 0.3;
   EXPECT_NEAR(norm(settings.tilted({0.0, 0.0, -9.8})), 9.8, 1e-12);
+  EXPECT_THROW(settings.tilted({2.0, 0.0, -9.6}), SettingError) << "it leans already";
 }
 
 TEST(RecordedGround, IsTheFieldAgain) {

@@ -1,5 +1,6 @@
 #include "amble/io/file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -154,6 +155,23 @@ TEST(AtomicFile, ShowsItselfOnlyWhenCommitted) {
     EXPECT_THAT(folder.entries(), UnorderedElementsAre("f", temporary_of("g").string()));
   }
   EXPECT_THAT(folder.entries(), ElementsAre("f"));
+}
+
+/// As /dev/stdout is one, whatever the output is redirected to.
+TEST(AtomicFile, WritesThroughALinkToAnOpenFileAndLeavesTheLink) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "taken", "old");
+  const int fd = ::open((folder / "taken").c_str(), O_WRONLY);
+  ASSERT_GE(fd, 0);
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(fd), folder / "out");
+  write_file(folder / "out", "new");
+  ::close(fd);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "out"));
+  EXPECT_EQ(read_file(folder / "taken"), "new");
+  // A link to a file is no such thing: it is replaced, and the file stays.
+  std::filesystem::create_symlink("taken", folder / "link");
+  write_file(folder / "link", "newer");
+  EXPECT_EQ(read_file(folder / "taken"), "new");
 }
 
 TEST(AtomicFile, ReplacesWhatAKilledProcessOfTheSameNumberLeftBehind) {

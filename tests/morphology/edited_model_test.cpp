@@ -43,7 +43,10 @@ class Accounting {
     model.visit([&](const XmlElement& element) {
       for (const XmlElement& child : element.children) {
         const bool of_body = element.name == "body" || element.name == "frame";
-        geoms += (child.name == "geom" && of_body) || (child.name == "collision" && element.name == "link");
+        const XmlElement* const geometry = child.child("geometry");
+        const bool capsule = geometry != nullptr && geometry->child("capsule") != nullptr;  // in three parts
+        if ((child.name == "geom" && of_body) || (child.name == "collision" && element.name == "link"))
+          geoms += capsule ? 3 : 1;
         bodies += child.name == "body" && element.name == "worldbody";
       }
     });

@@ -97,6 +97,101 @@ std::string scaled(double by) {
   return text;
 }
 
+TEST(Urdf, WithStopsOfContinuousJointsSaysThatTheyAreNone) {
+  const Files files;
+  const std::string hip = R"(<joint name="left_hip_joint" type=)";
+  const ModelFile model = compile_model(
+      files.write("r.urdf", with(urdf_with_effort(), hip + R"("revolute")", hip + R"("continuous")")));
+  EXPECT_THAT(model.notes.text(), HasSubstr("stops of continuous joints, which have none: left_hip_joint"));
+  const ModelParts parts = extract_parts(model);
+  const auto joint = std::ranges::find(parts.joints, "left_hip_joint", &robot::Joint::name);
+  ASSERT_NE(joint, parts.joints.end());
+  EXPECT_GT(joint->upper_rad, 3.0);
+}
+
+TEST(Urdf, MayHaveCapsules) {
+  const Files files;
+  const auto read = [&](const std::string& shapes) {
+    return extract_parts(compile_model(files.write(
+        "r.urdf",
+        with(urdf_with_effort(),
+             R"(<collision><origin xyz="0 0 -0.2"/><geometry><sphere radius="0.03"/></geometry></collision>)",
+             shapes))));
+  };
+  const ModelParts parts = read(
+      R"(<collision name="c"><origin xyz="0 0 -0.1" rpy="1.5707963267948966 0 0"/><geometry><capsule radius="0.03" length="0.2"/></geometry></collision>)");
+  EXPECT_THAT(parts.notes.text(), HasSubstr("capsules, by a cylinder and two balls: of left_shin"));
+  std::vector<Vec3> balls;
+  for (const robot::Geom& geom : parts.geoms)
+    if (geom.shape == robot::Shape::sphere && geom.size_m.x == 0.03) balls.push_back(geom.position_m);
+  ASSERT_EQ(balls.size(), 3u) << "two of the left shin, and the right one's foot";
+  EXPECT_NEAR(norm(balls[0] - balls[1]), 0.2, 1e-9);
+  EXPECT_NEAR(std::abs(balls[0].y - balls[1].y), 0.2, 1e-9) << "its axis is turned to y";
+  EXPECT_THAT(files.error_of([&] { read("<collision><geometry><egg/></geometry></collision>"); }),
+              HasSubstr("link 'left_shin': <egg>: expected a box, cylinder, sphere, capsule or mesh"));
+}
+
+TEST(Urdf, KeepsMotorsWithTheirJointsWhereAnEmptyLinkIsLeftOut) {
+  const Files files;
+  const std::string camera =
+      R"(<link name="camera"/><joint name="camera_tilt" type="revolute"><parent link="base"/><child link="camera"/>
+         <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>)";
+  std::string text =
+      with(urdf_with_effort(), R"(<link name="left_thigh">)", camera + R"(<link name="left_thigh">)");
+  std::string motors;
+  for (const char* joint : {"left_hip_joint", "left_knee_joint", "right_hip_joint", "right_knee_joint"})
+    motors += fmt::format(R"(<transmission name="t_{0}"><joint name="{0}"/></transmission>)", joint);
+  const ModelParts parts =
+      extract_parts(compile_model(files.write("r.urdf", with(text, "</robot>", motors + "</robot>"))));
+  ASSERT_EQ(parts.joints.size(), 4u);
+  ASSERT_EQ(parts.drives.size(), 4u);
+  for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(parts.drives[j], Drive::motor) << parts.joints[j].name;
+}
+
+TEST(RobotGuess, TakesAKeyframeAtAStopAndOneWithoutAName) {
+  const Files files;
+  const auto toml = [&](const std::string& key, const std::string& range) {
+    const std::string behind =
+        tests::motors(R"(position kp="40" forcerange="-9 9")") + "<keyframe>" + key + "</keyframe>";
+    return guess_robot(
+               compile_model(files.write("m.xml", model_text(four_legs({.knee = range}), "<freejoint/>", "",
+                                                             behind, R"(<compiler angle="radian"/>)"))),
+               "m.xml")
+        .toml;
+  };
+  for (const char* stop : {"-0.91234", "-0.9123", "-0.912349"}) {
+    const std::string key =
+        fmt::format(R"(<key name="home" qpos="0 0 0.38 1 0 0 0 .4 {0} .4 {0} .4 {0} .4 {0}"/>)", stop);
+    EXPECT_THAT(toml(key, fmt::format(R"(range="{} 1")", stop)), HasSubstr("start = \"home\"")) << stop;
+  }
+  EXPECT_THAT(toml(R"(<key qpos="0 0 0.38 1 0 0 0 .4 -.8 .4 -.8 .4 -.8 .4 -.8"/>)", R"(range="-1 1")"),
+              HasSubstr("start = \"key\""));
+}
+
+TEST(RobotGuess, LowersARobotWhoseFrameIsBelowItsFeet) {
+  const Files files;
+  const std::string text =
+      all_replaced(urdf_with_effort(), R"(<origin xyz="0 0.1 0"/>)", R"(<origin xyz="0 0.1 0.9"/>)");
+  const auto file = files.write(
+      "r.urdf", all_replaced(text, R"(<origin xyz="0 -0.1 0"/>)", R"(<origin xyz="0 -0.1 0.9"/>)"));
+  const std::string toml = guess_robot(compile_model(file), "r.urdf").toml;
+  EXPECT_THAT(toml, HasSubstr("start_height_m = -0."));
+}
+
+TEST(RobotGuess, GivesTypesOtherNamesThanJointsOfNoLeg) {
+  const Files files;
+  std::string text = model_text(
+      four_legs(), "<freejoint/>",
+      R"(<body name="head" pos="0.3 0 0.1"><joint name="pitch" axis="0 1 0" range="-60 60"/><geom size="0.05" mass="0.2"/></body>)");
+  int number = 0;
+  for (const char* leg : {"FL", "FR", "RL", "RR"})
+    for (const char* type : {"hip", "knee"})
+      text = all_replaced(text, fmt::format("{}_{}", leg, type), fmt::format("j{}", ++number));
+  const std::string toml = guess_robot(compile_model(files.write("m.xml", text)), "m.xml").toml;
+  EXPECT_THAT(toml, HasSubstr(R"("pitch_hinge")"));
+  EXPECT_THAT(toml, HasSubstr(R"(held = ["pitch"])"));
+}
+
 TEST(RobotGuess, GivesRobotsOfAnySizeHeightsThatAreTheirs) {
   const Files files;
   for (const double by : {1.0, 0.1, 0.01, 0.003, 0.001}) {

@@ -84,6 +84,13 @@ TEST_F(Structure, AFrameMayHoldJointsAndBodies) {
   ASSERT_EQ(framed.joints.size(), 2u);
   EXPECT_NEAR(norm(framed.joints[1].anchor_m - plain.joints[1].anchor_m), 0.0, 1e-12);
   EXPECT_NEAR(norm(framed.joints[1].axis - plain.joints[1].axis), 0.0, 1e-12);
+  const ModelParts twice = parts(
+      with(one_leg_xml, knee,
+           R"(<frame pos="0.1 0 0"><frame euler="0 0 1.5707963267948966">)" + knee + "</frame></frame>"));
+  ASSERT_EQ(twice.joints.size(), 2u);
+  EXPECT_EQ(twice.bodies.size(), plain.bodies.size());
+  EXPECT_NEAR(norm(twice.joints[1].anchor_m - plain.joints[1].anchor_m), 0.0, 1e-12);
+  EXPECT_NEAR(norm(twice.joints[1].axis - plain.joints[1].axis), 0.0, 1e-12);
   // The whole robot, and a leg of it, in frames.
   std::string xml = with(one_leg_xml, R"(<body name="torso")",
                          R"(<frame pos="0 0 0.5"><frame pos="1 0 0"><body name="torso")");

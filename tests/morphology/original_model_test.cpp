@@ -106,6 +106,21 @@ TEST(OriginalModel, GetsAGroundWhereItHasNone) {
   EXPECT_EQ(compiled(grounded.robot)->ngeom, static_cast<int>(grounded.robot.geoms.size()) + 1);
 }
 
+TEST(OriginalModel, HasItsOwnGroundInWhateverBodyThatStands) {
+  const Files files;
+  const std::string plane = R"(<geom type="plane" size="9 9 1"/>)",
+                    model = tests::model_text(tests::four_legs());
+  for (const std::string& floor :
+       {"<body name=\"floor\">" + plane + "</body>", "<frame>" + plane + "</frame>",
+        "<body pos=\"0 0 -1\"><body pos=\"0 0 1\">" + plane + "</body></body>"}) {
+    const Loaded loaded = load(files, with(model, plane, floor));
+    EXPECT_THAT(loaded.notes.text(), Not(HasSubstr("friction (1)"))) << floor;
+    EXPECT_EQ(compiled(loaded.robot)->ngeom, static_cast<int>(loaded.robot.geoms.size()) + 1) << floor;
+  }
+  const Loaded low = load(files, with(model, plane, "<body pos=\"0 0 -1\">" + plane + "</body>"));
+  EXPECT_THAT(low.notes.text(), HasSubstr("friction (1)"));
+}
+
 TEST(OriginalModel, CarriesMeshesThatCollideOrWeighAndNoOthers) {
   const Files files;
   std::filesystem::create_directories(files.path("parts"));

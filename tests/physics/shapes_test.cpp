@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -63,6 +62,34 @@ TEST_P(Mesh, StandsOnItsCornersAndNotOnWhatLiesBetween) {
   EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0)), 0.0, 1e-3);
   const RollPitchYaw attitude = roll_pitch_yaw(bench.engine->root_pose(0).rotation);
   EXPECT_NEAR(std::hypot(attitude.roll_rad, attitude.pitch_rad), 0.0, 0.01);
+}
+
+/// Its corners crowd at the top, so that their mean is far above its tip.
+TEST_P(Mesh, TouchesTheGroundWithATipFarFromTheMeanOfItsCorners) {
+  robot::RobotSpec robot = scene("box");
+  robot::Geom& geom = robot.geoms[0];
+  geom.shape = robot::Shape::mesh;
+  geom.vertices_m = {
+      {0.0, 0.0, -0.12}, {0.02, 0.0, -0.1}, {-0.02, 0.0, -0.1}, {0.0, 0.02, -0.1}, {0.0, -0.02, -0.1}};
+  constexpr int corners = 20;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    geom.vertices_m.push_back({0.03 * std::cos(angle), 0.03 * std::sin(angle), 0.06});
+  }
+  geom.triangles = {{0, 1, 3}, {0, 3, 2}, {0, 2, 4}, {0, 4, 1}};
+  for (int i = 0; i < corners; ++i) {
+    const int a = 5 + i, b = 5 + (i + 1) % corners;
+    geom.triangles.push_back({5, b, a});
+    geom.triangles.push_back({1 + i % 4, a, b});
+  }
+  geom.size_m = {0.12, 0.0, 0.0};
+  geom.position_m = {};
+  geom.rotation = {};
+  robot.bodies[0].com_m = {};
+  robot.bodies[0].position_m.z = 0.119;
+  Bench bench(GetParam(), robot);
+  bench.steps(3);
+  EXPECT_GT(bench.engine->com_m(0).z, 0.117) << "held up from the first millimetre on";
 }
 
 }  // namespace

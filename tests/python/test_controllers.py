@@ -47,6 +47,13 @@ def test_controllers_that_sense_walk_as_champions_do_to_the_bit(first_command, t
         robots.step(wanted)
 
 
+def test_controllers_that_sense_their_attitude_are_not_stepped_without(tmp_path):
+    config = amble.load_config(CONFIG, {**SMALL, "controller.supg.modulation.sensors": ["pitch"], "controller.supg.modulation.rate": 1.0})
+    controllers = amble.Controllers(config, amble.Search(config, 1).ask()[:1])
+    with pytest.raises(ValueError, match="attitude_rad is missing: these controllers sense it"):
+        controllers.step(np.zeros((1, 12)), np.ones((1, 4)))
+
+
 STEERED = SOURCE / "robots/hexapod/steered.json"
 
 

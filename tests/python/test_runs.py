@@ -215,7 +215,13 @@ def test_a_champion_is_exported_and_its_gait_measured_as_by_the_command_line(tmp
     assert "walker_step" in (tmp_path / "walker.h").read_text()
     assert champion.export(tmp_path / "fixed.c", fixed=True) and "FRACTION_BITS" in (tmp_path / "fixed.h").read_text()
     assert json.loads((tmp_path / champion.export(tmp_path / "walker.json")).read_text())["format"] == "amble-export"
-    assert (tmp_path / champion.export(tmp_path / "robot.xml")).read_text().startswith("<mujoco")
+    assert (tmp_path / champion.export(tmp_path / "robot.xml")).read_text().startswith("<!-- Written by amble. -->\n<mujoco")
+    assert champion.export(tmp_path / "robot.xml")  # again
+    own = tmp_path / "own.xml"
+    own.write_text('<mujoco model="mine"/>')
+    with pytest.raises(amble.Error, match="is not an MJCF model that amble wrote"):
+        champion.export(own)
+    assert own.read_text() == '<mujoco model="mine"/>'
     with pytest.raises(ValueError, match="ends in .c, .json or .xml"):
         champion.export(tmp_path / "walker.h")
     with pytest.raises(amble.Error, match="expected a letter"):

@@ -17,6 +17,13 @@ std::string error_of(const std::string& text) {
   return tests::error_of([&] { parse_generations(text, "runs/1/generations.csv"); });
 }
 
+TEST(GenerationsCsv, PassesOverARowThatWasNotWrittenToItsEnd) {
+  const std::string row = "0,0.25,0.125,-0.5,3,100,0,8,300,450000\n";
+  for (const char* torn : {"1,0.5", "1,0.5,0.5,0.25,4,90,0.5,8.5,301,440000"})
+    EXPECT_EQ(parse_generations(header + "\n" + row + torn, "x").count(), 1u) << torn;
+  EXPECT_NE(error_of(header + "\n1,0.5\n" + row), "") << "not the last";
+}
+
 TEST(GenerationsCsv, ReadsColumnsByNameInAnyOrder) {
   const auto table = parse_generations(
       "steps,wall_s,generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations\n"

@@ -60,8 +60,13 @@ TEST(WalkingByPath, NeedsSamplesThatAreCloseEnough) {
   EXPECT_FALSE(walking_by_path_s(test, {10.0, 0.25}));
   test.path_interval_s = 2.0;
   EXPECT_TRUE(walking_by_path_s(test, {10.0, 0.25}));
+}
+
+TEST(WalkingByPath, IsKnownOfARobotThatFellBeforeTheFirstSample) {
+  ledger::TestResult test = walk(0.1, 300);
   test.path_m.clear();
-  EXPECT_FALSE(walking_by_path_s(test, {10.0, 0.25}));
+  test.episodes[0].seconds = 0.4;
+  EXPECT_EQ(walking_by_path_s(test, {10.0, 0.25}), 0.4);
 }
 
 TEST(WalkingByPath, IsTheMetersWhereThePathHasEveryOneOfItsSamples) {

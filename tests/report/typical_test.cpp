@@ -72,7 +72,7 @@ TEST(Typical, GoesFromTheUndisturbedTrialToTheStrongestLevel) {
 }
 
 TEST(Typical, TakesEvolutionForTheUndisturbedTrialOnlyWhereItWasOne) {
-  EXPECT_EQ(typical_tables(levelled_study())[0].columns[0].measure, "train_m");
+  EXPECT_EQ(typical_tables(levelled_study())[0].curves[0].points[0].measure, "train_m");
 
   StudyData noisy = levelled_study();
   for (ledger::Record& run : noisy.records) run.champion["noise"] = {{"settings", {}}};
@@ -98,6 +98,30 @@ TEST(Typical, TakesEvolutionForTheUndisturbedTrialOnlyWhereItWasOne) {
   EXPECT_DOUBLE_EQ(table.curves[0].points[0].summary.median, 10.0);
 }
 
+TEST(Typical, TakesEachConditionsOwnTestAtALevel) {
+  StudyData data = levelled_study();
+  ASSERT_GE(data.study.conditions.size(), 2u);
+  const auto milli = std::ranges::find(data.study.tests, "milli", &ledger::TestSpec::name);
+  ASSERT_NE(milli, data.study.tests.end());
+  ledger::TestSpec other = *milli;
+  other.name = "dear";
+  other.episodes = 1;
+  const std::string first = data.study.conditions[0].name, second = data.study.conditions[1].name;
+  milli->conditions = {first};
+  other.conditions = {second};
+  data.study.tests.push_back(other);
+  for (ledger::Record& run : data.records)
+    if (run.condition == second)
+      for (ledger::TestResult& test : run.tests)
+        if (test.name == "milli") test.name = "dear";
+  const auto tables = typical_tables(data);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_THAT(names(tables[0]), ElementsAre("none", "micro", "milli"));
+  ASSERT_EQ(tables[0].curves.size(), 2u);
+  EXPECT_EQ(tables[0].curves[0].points[2].measure, "milli.distance_m");
+  EXPECT_EQ(tables[0].curves[1].points[2].measure, "dear.distance_m");
+}
+
 TEST(Typical, KeepsTestsOfAnotherLengthOrEngineApart) {
   StudyData data = levelled_study();
   add_levelled(data, "milli", 2.0, 300.0);
@@ -107,9 +131,9 @@ TEST(Typical, KeepsTestsOfAnotherLengthOrEngineApart) {
   EXPECT_EQ(tables[0].name(), "typical-15s");
   EXPECT_EQ(tables[1].name(), "typical-300s");
   EXPECT_THAT(names(tables[1]), ElementsAre("none", "milli"));
-  EXPECT_EQ(tables[1].columns[0].measure, "long.distance_m");
+  EXPECT_EQ(tables[1].curves[0].points[0].measure, "long.distance_m");
   EXPECT_EQ(tables[2].name(), "typical-15s-ode");
-  EXPECT_EQ(tables[2].columns[0].measure, "ode.distance_m");
+  EXPECT_EQ(tables[2].curves[0].points[0].measure, "ode.distance_m");
 }
 
 TEST(Typical, KeepsTestsWithACommandOrAGroundOfTheirOwnApartUnderNamesOfTheirOwn) {

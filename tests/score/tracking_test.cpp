@@ -142,5 +142,19 @@ TEST(SwitchTime, CountsWhatAFallCutsOffUnlessTheCommandWasFollowedBefore) {
   EXPECT_EQ(switch_s(fallen, context(12)), 0.0);
 }
 
+TEST(SwitchTime, CountsCommandsThatAFallKeptFromComingEachUntilTheNext) {
+  auto fallen = drive({{0.4, 0.0, 0.4, 0.0, 3}});
+  fallen.outcome = record::Outcome::fell;
+  // Another second of the first command, six of a second one, two of a third.
+  for (const auto& [seconds, speed_m_s] : {std::pair(1, 0.4), {6, 0.2}, {2, 0.0}})
+    for (int i = 0; i < seconds; ++i)
+      fallen.command_by_second.insert(fallen.command_by_second.end(), {speed_m_s, 0.0});
+  EXPECT_EQ(switch_s(fallen, context(12)), (0.0 + 6.0 + 2.0) / 3.0) << "a stop is a command as well";
+  auto at_once = drive({});
+  at_once.outcome = record::Outcome::fell;
+  for (int i = 0; i < 6; ++i) at_once.command_by_second.insert(at_once.command_by_second.end(), {0.4, 0.0});
+  EXPECT_EQ(switch_s(at_once, context(6)), 6.0);
+}
+
 }  // namespace
 }  // namespace amble::score

@@ -48,12 +48,37 @@ TEST(ShareInside, OfAGridIsThatOfPointsDrawn) {
       }
 }
 
-TEST(ShareInside, OfCentroidsIsThatOfACubeOfTheirVolume) {
-  const CentroidCells cells(two_dimensions(1), {0.25f, 0.25f, 0.75f, 0.25f, 0.25f, 0.75f, 0.75f, 0.75f});
-  const std::vector<float> middle{0.25f, -45.0f}, border{0.5f, -45.0f};
-  EXPECT_NEAR(cells.share_inside(middle, 0.25), 0.6827 * 0.6827, 1e-3) << "one deviation to each side";
-  EXPECT_NEAR(cells.share_inside(middle, 1e-3), 1.0, 1e-9);
-  EXPECT_NEAR(cells.share_inside(border, 1e-3), 0.5, 1e-9);
+/// Of squares, so that cells are the cubes which stand for them.
+TEST(ShareInside, OfCentroidsIsThatOfPointsDrawnAtTheEndsOfRangesToo) {
+  std::vector<float> centroids;
+  for (const float x : {1.0f, 3.0f, 5.0f})
+    for (const float y : {1.0f, 3.0f, 5.0f}) centroids.insert(centroids.end(), {x / 6.0f, y / 6.0f});
+  const CentroidCells cells(two_dimensions(1), centroids);
+  for (const float x : {-0.2f, 0.0f, 0.3f, 0.5f, 0.95f, 1.0f})
+    for (const float y : {-100.0f, -90.0f, -1.0f, 53.0f, 90.0f})
+      for (const double deviation : {0.02, 0.1, 0.4}) {
+        const std::vector<float> descriptor{x, y};
+        EXPECT_NEAR(cells.share_inside(descriptor, deviation), counted_share(cells, descriptor, deviation),
+                    0.011)
+            << x << " " << y << " " << deviation;
+      }
+  const std::vector<float> middle{0.5f, 0.0f}, border{1.0f / 3.0f, 0.0f};
+  EXPECT_NEAR(cells.share_inside(middle, 1.0 / 6.0), 0.6827 * 0.6827, 1e-3) << "one deviation to each side";
+  EXPECT_NEAR(cells.share_inside(border, 1e-3), 0.5, 1e-3);
+}
+
+/// Cells of many dimensions are no cubes; those at the ends of ranges still go on beyond.
+TEST(ShareInside, OfSpreadCentroidsGrowsTowardsTheEndsOfRanges) {
+  const std::vector<DescriptorSettings> unit(4);
+  const CentroidCells cells(unit, spread_centroids(300, 4, 6000, 1));
+  for (std::uint32_t cell = 0; cell < cells.count(); ++cell) {
+    std::vector<float> at(cells.centroids().begin() + 4 * cell, cells.centroids().begin() + 4 * (cell + 1));
+    at[2] = 1.0f;
+    if (cells.of(at) != cell) continue;
+    const double at_end = cells.share_inside(at, 0.1);
+    at[2] = 1.2f;
+    EXPECT_GT(cells.share_inside(at, 0.1), at_end) << cell;
+  }
 }
 
 TEST(StayingProbability, RisesWithEvaluationsAndFallsWithTheirSpread) {
@@ -82,6 +107,7 @@ std::vector<Challenger> challengers_of(int count) {
     challenger.elite.objective = i;
     challenger.descriptor = {0.1f, static_cast<float>(-72 + 36 * i)};
     challenger.elite.genome = "genome " + std::to_string(i);
+    challenger.parent.cell = static_cast<std::uint32_t>(10 + i);
   }
   return challengers;
 }
@@ -92,14 +118,18 @@ TEST(MostPromising, AreThoseThatAddMostToTheMapInTheirOldOrder) {
   Elites elites(cells.count(), 2);
   elites.put({.cell = 4, .objective = 3.5, .genome = {}},
              std::vector<float>{0.1f, 72.0f});  // leaves 0.5 to gain
-  const auto two = most_promising(challengers_of(5), 2, cells, elites);
+  const auto [two, parents] = most_promising(challengers_of(5), 2, cells, elites);
   ASSERT_EQ(two.size(), 2u);
   EXPECT_EQ(two[0].elite.genome, "genome 2");
   EXPECT_EQ(two[1].elite.genome, "genome 3");
-  EXPECT_EQ(most_promising(challengers_of(5), 5, cells, elites).size(), 5u);
+  ASSERT_EQ(parents.size(), 3u) << "of those that are tried no more";
+  EXPECT_EQ(parents[0].cell, 10u);
+  EXPECT_EQ(parents[2].cell, 14u);
+  EXPECT_EQ(most_promising(challengers_of(5), 5, cells, elites).promising.size(), 5u);
   auto unsure = challengers_of(5);
   unsure[3].elite.spread = 100.0;
-  EXPECT_EQ(most_promising(unsure, 2, cells, elites)[0].elite.genome, "genome 1") << "in place of genome 3";
+  EXPECT_EQ(most_promising(unsure, 2, cells, elites).promising[0].elite.genome, "genome 1")
+      << "in place of genome 3";
 }
 
 TEST(MostPromising, AreOneInEachCellAndThoseThatWereTriedAgainFirst) {
@@ -108,15 +138,15 @@ TEST(MostPromising, AreOneInEachCellAndThoseThatWereTriedAgainFirst) {
   const Elites elites(cells.count(), 2);
   auto challengers = challengers_of(5);
   challengers[4].elite.cell = 3;
-  auto kept = most_promising(challengers, 5, cells, elites);
+  auto kept = most_promising(challengers, 5, cells, elites).promising;
   ASSERT_EQ(kept.size(), 4u);
   EXPECT_EQ(kept[3].elite.genome, "genome 4") << "more to gain than genome 3 of that cell";
   challengers[3].elite.evaluations = 2;
-  kept = most_promising(challengers, 5, cells, elites);
+  kept = most_promising(challengers, 5, cells, elites).promising;
   ASSERT_EQ(kept.size(), 4u);
   EXPECT_EQ(kept[3].elite.genome, "genome 3") << "it was begun with";
   challengers[0].elite.evaluations = 3;
-  EXPECT_EQ(most_promising(challengers, 2, cells, elites)[0].elite.genome, "genome 0");
+  EXPECT_EQ(most_promising(challengers, 2, cells, elites).promising[0].elite.genome, "genome 0");
 }
 
 TEST(Challengers, AreReadBackAsTheyWereAndRefusedIfTheyCannotBe) {

@@ -140,6 +140,8 @@ TEST(Worker, RecordsWhatAMapKeepsInNewTrialsIfTheStudyAsks) {
   EXPECT_EQ(ledger::measure(plain, "staying_share"), std::nullopt) << "it has no map";
   const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
   EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
+  EXPECT_EQ(kept.load("map", 3).map_trials, 3);
+  EXPECT_EQ(plain.map_trials, 0);
 }
 
 /// The distance is the score in these studies: that of which mutants keep shares must be the mean of the

@@ -380,6 +380,25 @@ TEST(Runner, NotesHeadingsAndCommandsSecondBySecond) {
   EXPECT_EQ(trajectory.turned_rad, 0.0);
 }
 
+TEST(Runner, NotesCommandsThatAFallKeptFromComing) {
+  // The point sinks by 1 mm a step from 1 m: it falls in its second second.
+  FakeEngine engine(1);
+  FakeBatch controllers(1);
+  Protocol falling = protocol(450, 0.87);
+  falling.measures = {.headings = true, .commands = true};
+  falling.commands = CommandSchedule({{0, {0.4f, 0.0f}}, {250, {0.2f, -0.5f}}}, 0);
+  Queue queue({FakeParameters(0.001f)});
+  const std::atomic<bool> stop{false};
+  Runner(engine, controllers, falling).run(queue, stop);
+  const record::Trajectory& trajectory = *queue.results[0];
+  ASSERT_EQ(trajectory.outcome, record::Outcome::fell);
+  ASSERT_EQ(trajectory.turned_by_second_rad.size(), 1u);
+  ASSERT_EQ(trajectory.command_by_second.size(), 8u) << "of all whole seconds";
+  EXPECT_NEAR(trajectory.command_by_second[2], 0.4, 1e-6) << "the second that the fall is in";
+  EXPECT_NEAR(trajectory.command_by_second[4], 0.2, 1e-6) << "as at its end";
+  EXPECT_NEAR(trajectory.command_by_second[7], -0.5, 1e-6);
+}
+
 TEST(Runner, ObeysTheScenariosCommandsBeforeTheProtocols) {
   FakeEngine engine(1);
   FakeBatch controllers(1);

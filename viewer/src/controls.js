@@ -85,7 +85,9 @@ export function connectKeys(page) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
     if (event.target.tagName === "INPUT" && event.target.id !== "slider" && event.target.type !== "checkbox") return; // its own keys
-    if (event.target.type === "checkbox" && event.key === " ") return; // its own key
+    const { type, tagName } = event.target;
+    if (event.key === " " && (type === "checkbox" || tagName === "SUMMARY" || tagName === "A")) return; // its own key
+    if (/^Arrow(Left|Right)$/.test(event.key) && event.target.closest(".scroll")) return; // what is wider than the page
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action || (!single.keys && /^[^ ]$/.test(event.key))) return;
     event.preventDefault();

@@ -5,6 +5,7 @@ import { askBeforeLeaving } from "./unsaved.js";
 import { button, group, row, slider } from "./widgets.js";
 
 const HEIGHT = 170, LEFT = 40, RIGHT = 8, BELOW = 22, BANDS = 34;
+const MOST_SHOWN = 600; // generations
 
 /** Bundled as text by build.mjs. */
 const startWorker = () => new Worker(URL.createObjectURL(new Blob([AMBLE_EVOLVE_WORKER], { type: "text/javascript" })));
@@ -78,6 +79,8 @@ export class EvolvePanel {
       return;
     }
     this.history.push(progress);
+    // A run has no end, its curve has: every other generation goes, but what happened last.
+    if (this.history.length > 2 * MOST_SHOWN) this.history = this.history.filter((row, i, { length }) => i % 2 === 0 || i === length - 1);
     if (best) this.best = { text: best, generation: progress.best_generation };
     // Small populations have several generations a frame, and what cannot be seen is not drawn.
     this.frame ??= requestAnimationFrame(() => {
@@ -98,11 +101,11 @@ export class EvolvePanel {
     for (const { label } of this.rows) label.querySelector("input").disabled = this.worker !== null;
     this.again.hidden = this.worker === null;
     this.show.hidden = this.save.hidden = this.best === null;
-    const now = this.history.at(-1);
+    const now = this.history.at(-1), scored = (value) => number(value, 2) + now.unit;
     this.canvas.hidden = !now;
     this.status.textContent = now
-      ? `Generation ${now.generation}: best ${number(now.best, 2)} m, median ${number(now.median, 2)} m; ${now.fell} fell; ${now.species.length} species. ` +
-        `Best so far ${number(now.best_so_far, 2)} m, of generation ${now.best_generation}.`
+      ? `Generation ${now.generation}: best ${scored(now.best)}, median ${scored(now.median)}; ${now.fell} fell; ${now.species.length} species. ` +
+        `Best so far ${scored(now.best_so_far)}, of generation ${now.best_generation}.`
       : this.running ? "The first generation walks." : "";
     this.paint();
   }
@@ -114,7 +117,7 @@ export class EvolvePanel {
     canvas.height = Math.round(HEIGHT * devicePixelRatio);
     const paint = canvas.getContext("2d");
     paint.scale(devicePixelRatio, devicePixelRatio);
-    const most = Math.max(10, history.length - 1), base = HEIGHT - BELOW - BANDS - 6;
+    const most = Math.max(10, history.at(-1).generation), base = HEIGHT - BELOW - BANDS - 6;
     const x = (generation) => LEFT + (generation / most) * (width - LEFT - RIGHT);
     const { lower, upper, ticks, text } = niceAxis(Math.min(0, ...history.map(({ median }) => median)), Math.max(0.1, history.at(-1).best_so_far), 4);
     const y = (value) => base - ((value - lower) / (upper - lower)) * (base - 10);
@@ -129,7 +132,7 @@ export class EvolvePanel {
     }
     const curve = (value, css, thick) => {
       paint.beginPath();
-      history.forEach((row, i) => paint.lineTo(x(i), y(value(row))));
+      for (const row of history) paint.lineTo(x(row.generation), y(value(row)));
       paint.strokeStyle = colour(css);
       paint.lineWidth = thick;
       paint.stroke();
@@ -148,14 +151,15 @@ export class EvolvePanel {
   /** Stacked: each species as a band, as high as it has members. */
   paintSpecies(paint, x, top) {
     const colours = Array.from({ length: 8 }, (_, i) => colour(`--c${i}`));
-    this.history.forEach(({ species }, i) => {
+    this.history.forEach(({ species, generation }, i) => {
       const all = species.reduce((sum, [, size]) => sum + size, 0);
+      const from = x(this.history[i - 1]?.generation ?? generation);
       let at = top;
       for (const [id, size] of species) {
         const high = (size / all) * BANDS;
         paint.fillStyle = colours[id % 8];
         paint.globalAlpha = 0.75;
-        paint.fillRect(x(Math.max(0, i - 1)), at, Math.max(1, x(i) - x(Math.max(0, i - 1)) + 0.5), high);
+        paint.fillRect(from, at, Math.max(1, x(generation) - from + 0.5), high);
         at += high;
       }
     });

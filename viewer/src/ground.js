@@ -59,6 +59,15 @@ export class Ground {
     return this.textures.get(index);
   }
 
+  /** Pictures of numbers take room, and a walker passes many. */
+  forgetFar(middle) {
+    for (const [index, texture] of this.textures) {
+      if (Math.abs(index - middle) <= 4 * LABELS) continue;
+      texture.dispose();
+      this.textures.delete(index);
+    }
+  }
+
   paint() {
     this.plane.material.color.set(colour("--floor"));
     this.lines.material.color.set(colour("--floor-line"));
@@ -76,6 +85,7 @@ export class Ground {
     const lane_m = snap(way_m) + side * (0.5 * this.step_m + away_m);
     for (const part of [this.plane, this.shadow, this.lines]) [part.position.x, part.position.y] = [snap(x_m), snap(y_m)];
     const middle = Math.round(x_m / this.step_m);
+    this.forgetFar(middle);
     this.labels.forEach((label, i) => {
       const index = middle + i - LABELS;
       label.position.x = (index + side * (0.04 + 0.25 * size)) * this.step_m;

@@ -92,7 +92,7 @@ export class Live {
     if (era === this.shownEra) return;
     this.shownEra = era;
     this.walk.showEra(era);
-    this.page.stage.renew(0, era.missing);
+    this.page.stage.renew(0);
   }
 
   /** Whether these are the native program's bits, by the trial in the champion's file. */
@@ -116,6 +116,7 @@ export class Live {
     this.steer?.update();
     this.fitWindow(this.clock.duration_s);
     this.showEra();
+    this.panel.showLegs();
   }
 
   /** What diagrams can show reaches up to a time. */

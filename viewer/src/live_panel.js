@@ -104,10 +104,10 @@ export class LivePanel {
     this.friction = slider(0.05, 2, 0.05, 1);
     const rows = [
       row("Kind", this.kind, () => ""),
-      row("Height", this.height, () => `${number(Number(this.height.value), 3)} m`),
+      row("Height", this.height, () => `${number(exact(this.height), 3)} m`),
       row("Seed", this.seed, () => ""),
-      row("Uphill, forward", this.slopeX, () => `${number(100 * this.slopeX.value, 0)} %`),
-      row("Uphill, to the left", this.slopeY, () => `${number(100 * this.slopeY.value, 0)} %`),
+      row("Uphill, forward", this.slopeX, () => `${number(100 * exact(this.slopeX), 0)} %`),
+      row("Uphill, to the left", this.slopeY, () => `${number(100 * exact(this.slopeY), 0)} %`),
       row("Friction", this.friction, () => this.frictionText()),
     ];
     this.rows.push(...rows);
@@ -120,16 +120,16 @@ export class LivePanel {
   frictionText() {
     const own = this.walk.description.friction;
     if (!this.frictionSet && own === "inf") return "never slips";
-    return number(Number(this.friction.value), 2);
+    return number(exact(this.friction), 2);
   }
 
   setGround(control) {
     if (control === this.friction) this.frictionSet = true;
     const now = this.walk.description.ground;
-    const settings = { ...now, kind: this.kind.value, seed: Number(this.seed.value) || 1, height_m: Number(this.height.value),
-                       slope_x: Number(this.slopeX.value), slope_y: Number(this.slopeY.value) };
+    const settings = { ...now, kind: this.kind.value, seed: Number(this.seed.value) || 1, height_m: exact(this.height),
+                       slope_x: exact(this.slopeX), slope_y: exact(this.slopeY) };
     if (now.kind === "plane") Object.assign(settings, this.first);
-    if (this.frictionSet) settings.friction = Number(this.friction.value);
+    if (this.frictionSet) settings.friction = exact(this.friction);
     return this.attempt(() => this.walk.live.setGround(settings));
   }
 
@@ -137,15 +137,15 @@ export class LivePanel {
     const { legs, joints } = this.walk.robot;
     this.legs = legs.map(({ name }) => {
       const box = element("input", { type: "checkbox", checked: "" });
-      box.addEventListener("change", () => this.setDamage());
+      box.addEventListener("change", () => this.setLeg(name, box.checked));
       return { name, box };
     });
     this.joint = element("select", { "aria-label": "Joint to lock" }, element("option", { value: "" }, "none"),
                          ...joints.map(({ name }) => element("option", { value: name }, name)));
-    this.joint.addEventListener("change", () => this.setDamage());
+    this.joint.addEventListener("change", () => this.setLock(this.joint.value));
     this.load = slider(0, 1, 0.05, 0);
-    this.load.addEventListener("change", () => this.setDamage());
-    const load = row("Load on its back", this.load, () => `${number(this.load.value * this.walk.description.mass_kg, 2)} kg`);
+    this.load.addEventListener("change", () => this.setLoad(exact(this.load) * this.walk.description.mass_kg));
+    const load = row("Load on its back", this.load, () => `${number(exact(this.load) * this.walk.description.mass_kg, 2)} kg`);
     load.label.addEventListener("input", load.show);
     const lock = row("Joint locked as it is", this.joint, () => "");
     this.rows.push(load, lock);
@@ -153,12 +153,21 @@ export class LivePanel {
     return group("Body", element("div", { class: "live-row" }, element("span", {}, "Legs it has"), element("div", { class: "live-legs" }, ...boxes)), lock.label, load.label);
   }
 
-  setDamage() {
-    const parts = this.legs.filter(({ box }) => !box.checked).map(({ name }) => ({ kind: "missing", leg: name }));
-    if (this.joint.value) parts.push({ kind: "locked", joint: this.joint.value, angle_rad: this.angleNow(this.joint.value) });
-    const mass_kg = this.load.value * this.walk.description.mass_kg;
-    if (mass_kg > 0) parts.push({ kind: "payload", mass_kg });
-    return this.attempt(() => this.walk.live.setDamage({ parts: parts.map((part) => ({ ...PART, ...part })) }));
+  // Of a body's damages only the one that is chosen becomes another: it may have more than this panel can show.
+
+  setLeg(name, there) {
+    return this.setPart(({ kind, leg }) => kind === "missing" && leg === name, there ? null : { kind: "missing", leg: name });
+  }
+  setLock(joint) {
+    return this.setPart((part) => part === this.lock, joint ? { kind: "locked", joint, angle_rad: this.angleNow(joint) } : null);
+  }
+  setLoad(mass_kg) {
+    return this.setPart((part) => part === this.payload, mass_kg > 0 ? { ...this.payload, kind: "payload", mass_kg } : null);
+  }
+  setPart(isOld, part) {
+    const parts = this.walk.description.damage.parts.filter((each) => !isOld(each));
+    if (part) parts.push({ ...PART, ...part });
+    return this.attempt(() => this.walk.live.setDamage({ parts }));
   }
 
   /** Within the joint's stops, which it may be beyond by a little. */
@@ -172,21 +181,35 @@ export class LivePanel {
   read() {
     const { ground, friction, damage } = this.walk.description;
     this.kind.value = ground.kind;
-    this.height.value = ground.height_m;
     this.seed.value = ground.seed;
-    this.slopeX.value = ground.slope_x;
-    this.slopeY.value = ground.slope_y;
+    put(this.height, ground.height_m);
+    put(this.slopeX, ground.slope_x);
+    put(this.slopeY, ground.slope_y);
     this.frictionSet = ground.friction >= 0;
-    if (friction !== "inf") this.friction.value = friction;
-    const missing = damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
-    for (const { name, box } of this.legs) box.checked = !missing.includes(name);
-    this.joint.value = damage.parts.find(({ kind }) => kind === "locked")?.joint ?? "";
-    this.load.value = (damage.parts.find(({ kind }) => kind === "payload")?.mass_kg ?? 0) / this.walk.description.mass_kg;
+    if (friction !== "inf") put(this.friction, friction);
+    this.showLegs();
+    this.lock = damage.parts.find(({ kind }) => kind === "locked");
+    this.payload = damage.parts.find(({ kind }) => kind === "payload");
+    this.joint.value = this.lock?.joint ?? "";
+    put(this.load, (this.payload?.mass_kg ?? 0) / this.walk.description.mass_kg);
     const uneven = ground.kind !== "plane";
     this.height.disabled = this.seed.disabled = !uneven;
     for (const { show } of this.rows) show();
   }
+
+  /** Which legs it has now: some are lost on the way. */
+  showLegs() {
+    const missing = this.walk.missingLegs(this.walk.seconds);
+    this.legs.forEach(({ box }, leg) => (box.checked = !missing.includes(leg)));
+  }
 }
+
+// A slider has steps and ends, which what it stands for need not have.
+function put(control, value) {
+  control.value = value;
+  control.exact = { value, shown: control.value };
+}
+const exact = (control) => (control.value === control.exact?.shown ? control.exact.value : Number(control.value));
 
 /** A damage's settings, all of which a file must have. */
 const PART = { kind: "missing", leg: "", joint: "", body: "", angle_rad: 0, share: 0.5, mass_kg: 1, x_m: 0, y_m: 0, z_m: 0, from_s: 0 };

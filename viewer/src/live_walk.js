@@ -1,7 +1,7 @@
 // A walk that is simulated while it is looked at: the same as a recorded one, but growing at its end.
 import { drawCppn } from "./cppn.js";
 import { GrowingRates } from "./told_path.js";
-import { Walk } from "./walk.js";
+import { lostLegs, Walk } from "./walk.js";
 
 const LONGEST_S = 600;
 const SPEED_WINDOW_S = 0.5; // before the present; what comes after is not known
@@ -102,15 +102,14 @@ export class LiveWalk extends Walk {
     this.beginEra();
   }
 
-  /** Legs, by number, that it lacks now. */
-  missingLegs() {
-    const names = this.description.damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
-    return names.map((name) => this.robot.legs.findIndex((leg) => leg.name === name));
+  /** As its body was then. */
+  missingLegs(t) {
+    return this.eraAt(t).lost.filter(({ from_s }) => from_s <= t).map(({ leg }) => leg);
   }
 
   beginEra() {
     this.eras = this.eras.filter(({ from_s }) => from_s < this.seconds);
-    this.eras.push({ from_s: this.seconds, ground: this.ground, gravity_m_s2: this.robot.gravity_m_s2, missing: this.missingLegs() });
+    this.eras.push({ from_s: this.seconds, ground: this.ground, gravity_m_s2: this.robot.gravity_m_s2, lost: lostLegs(this.robot, this.description.damage) });
   }
   eraAt(time_s) {
     return this.eras.findLast(({ from_s }) => from_s <= time_s) ?? this.eras[0];

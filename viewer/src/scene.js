@@ -132,8 +132,8 @@ export class Stage {
     this.controls.addEventListener("change", this.onChange);
   }
 
-  /** Takes over a walker's ground and gravity, which may have changed, and the legs that it lacks. */
-  renew(i, missing) {
+  /** Takes over a walker's ground and gravity, which may have changed. */
+  renew(i) {
     const lane = this.lanes[i];
     if (lane.terrain) {
       lane.group.remove(lane.terrain.mesh);
@@ -141,7 +141,6 @@ export class Stage {
     }
     lane.terrain = lane.walk.ground ? new Terrain(lane.walk.ground) : null;
     if (lane.terrain) lane.group.add(lane.terrain.mesh);
-    lane.model.setMissing(missing);
     const up = upwards(lane.walk.robot);
     if (this.camera.up.toArray().every((part, axis) => Math.abs(part - up[axis]) < 1e-9)) return;
     this.camera.up.set(...up);
@@ -323,6 +322,7 @@ export class Stage {
       model.setPose(walk.pose(t));
       const [x, y] = walk.comAt(t);
       terrain?.follow(x, y);
+      model.setMissing(walk.missingLegs(t));
       walk.robot.legs.forEach((_, leg) => model.setTouch(leg, walk.touching(leg, t)));
       trail.setRow(walk.place(t).row);
     }

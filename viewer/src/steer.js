@@ -7,6 +7,9 @@ const KEYS = { ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRigh
 const STICK_MS = 100;
 const STILL = 0.15; // of a stick that is let go of
 
+/** What arrows are for itself. */
+const hasArrows = (target) => target.tagName === "SELECT" || (target.tagName === "INPUT" && target.type !== "checkbox") || target.closest(".scroll");
+
 export class Steer {
   /** `live`: {walk, clock}, whose walk has commands. */
   constructor(live) {
@@ -64,7 +67,7 @@ export class Steer {
     const change = (event) => {
       if (!(event.key in KEYS)) return;
       // A key that is held is let go of wherever that happens, and whatever else is held by then.
-      const others = event.shiftKey || event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "INPUT"].includes(event.target.tagName);
+      const others = event.shiftKey || event.ctrlKey || event.metaKey || event.altKey || hasArrows(event.target);
       if (event.type === "keydown" ? others : !this.held.has(event.key)) return;
       event.preventDefault();
       event.stopPropagation();

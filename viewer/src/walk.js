@@ -6,6 +6,12 @@ const ROOT = ["x", "y", "z", "qw", "qx", "qy", "qz"].map((name) => "root." + nam
 const COM = ["x", "y", "z"].map((name) => "com." + name);
 const SPEED_WINDOW_S = 0.5; // speed is the way of this long
 
+/** Legs that a damage takes away, [{leg, from_s}]. */
+export function lostLegs(robot, damage) {
+  const parts = (damage?.parts ?? []).filter(({ kind }) => kind === "missing");
+  return parts.map(({ leg: name, from_s }) => ({ leg: robot.legs.findIndex((leg) => leg.name === name), from_s }));
+}
+
 export class Walk {
   static async unpack(json) {
     const ground = await unpackGround(json.ground), cppn_svg = await inflateText(json.cppn_svg);
@@ -29,6 +35,12 @@ export class Walk {
     this.neurons = (poses.names ?? []).filter((name) => name.startsWith("neuron.")).map((name) => ({ name: name.slice("neuron.".length), values: poses.get(name) }));
     this.triggered = this.columnsOfLegs(contacts, "trigger.");
     this.supg = this.controller.patterns_rad ? this.controller : null;
+    this.lost = lostLegs(this.robot, json.damage);
+  }
+
+  /** Legs, by number, that it lacks at time t. */
+  missingLegs(t) {
+    return this.lost.filter(({ from_s }) => from_s <= t).map(({ leg }) => leg);
   }
 
   /**

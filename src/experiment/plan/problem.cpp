@@ -13,7 +13,11 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
   if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty())
     fail(ExitCode::bad_input, "robot '{}': {}", io::printable(robot.name), fault);
   robot.bodies[0].position_m.z += config.drop_m;
-  robot.gravity_m_s2 = config.ground.tilted(robot.gravity_m_s2);
+  try {
+    robot.gravity_m_s2 = config.ground.tilted(robot.gravity_m_s2);
+  } catch (const SettingError& error) {
+    throw config.with_location(error);
+  }
   if (config.ground.friction >= 0.0) robot.contact.friction = config.ground.friction;
   Problem problem{.robot = std::move(robot),
                   .engine = config.engine,

@@ -129,10 +129,11 @@ namespace {
 
 std::optional<Tracking> tracking_of(const Problem& problem, const record::Trajectory& trajectory) {
   const bool told = problem.command.kind != trial::CommandKind::none;
-  if (told && record::second_count(trajectory.seconds()) == 0) return Tracking{};
-  if (trajectory.command_by_second.empty()) return std::nullopt;
   const score::Context context{.settings = problem.score,
                                .duration_s = problem.trial.steps() * problem.trial.timestep_s};
+  if (told && record::second_count(trajectory.seconds()) == 0)
+    return Tracking{.switch_s = score::switch_s(trajectory, context)};
+  if (trajectory.command_by_second.empty()) return std::nullopt;
   return Tracking{.tracking = score::tracking(trajectory, context),
                   .speed_error_m_s = score::speed_error(trajectory, context),
                   .turn_error_rad_s = score::turn_error(trajectory, context),

@@ -137,7 +137,10 @@ void Problem::set_ground(const ground::Settings& other) {
                  "expected a number");
   Problem changed = *this;
   if (other.slope_x != ground.slope_x || other.slope_y != ground.slope_y)
-    changed.robot.gravity_m_s2 = other.tilted({0.0, 0.0, -norm(robot.gravity_m_s2)});
+    // On a slope it leans for that.
+    changed.robot.gravity_m_s2 = other.tilted(ground.slope_x == 0.0 && ground.slope_y == 0.0
+                                                  ? robot.gravity_m_s2
+                                                  : Vec3{0.0, 0.0, -norm(robot.gravity_m_s2)});
   if (other.friction >= 0.0) changed.robot.contact.friction = other.friction;
   changed.ground = other;
   changed.check_start();

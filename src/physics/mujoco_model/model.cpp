@@ -34,13 +34,6 @@ void refuse_misfit(const robot::RobotSpec& robot) {
        io::printable(robot.name));
 }
 
-bool is_ground(const mjModel& m, int g) {
-  if (m.body_weldid[m.geom_bodyid[g]] != 0 || m.geom_type[g] != mjGEOM_PLANE) return false;
-  if (m.geom_contype[g] == 0 && m.geom_conaffinity[g] == 0) return false;
-  const Vec3 normal = rotate(morphology::quat(m.geom_quat + 4 * g), {0.0, 0.0, 1.0});
-  return m.geom_pos[3 * g + 2] == 0.0 && normal.z == 1.0;
-}
-
 void find_parts(const robot::RobotSpec& robot, Model& model) {
   const robot::OriginalModel& original = *robot.original;
   const mjModel& m = *model.mujoco;
@@ -61,7 +54,7 @@ void find_parts(const robot::RobotSpec& robot, Model& model) {
       model.leg_of[to_index(number)] = leg;
     }
   for (int g = 0; g < m.ngeom; ++g)
-    if (is_ground(m, g)) model.grounds.push_back(g);
+    if (morphology::is_ground(m, g)) model.grounds.push_back(g);
 }
 
 /// Puts the root of the start pose where the robot has it.

@@ -13,12 +13,23 @@ using robot::Geom;
 using robot::RobotSpec;
 using robot::Shape;
 
+/// How far a mesh's corners are from their mean, where ODE has its centre, or from its origin: the larger.
+double mesh_radius(const Geom& geom) {
+  Vec3 mean;
+  for (const Vec3 vertex : geom.vertices_m)
+    mean = mean + (1.0 / static_cast<double>(geom.vertices_m.size())) * vertex;
+  double radius_m = geom.size_m.x;
+  for (const Vec3 vertex : geom.vertices_m) radius_m = std::max(radius_m, norm(vertex - mean));
+  return radius_m;
+}
+
 double bounding_radius(const Geom& geom) {
   const Vec3 size = geom.size_m;
   switch (geom.shape) {
     case Shape::sphere:
-    case Shape::mesh:
       return size.x;
+    case Shape::mesh:
+      return mesh_radius(geom);
     case Shape::capsule:
       return size.x + size.y;
     case Shape::cylinder:

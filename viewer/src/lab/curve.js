@@ -38,6 +38,7 @@ export class Curve {
     this.show();
   }
   add(progress) {
+    this.unit = progress.unit;
     this.history.push(progress);
     this.show();
   }
@@ -48,19 +49,19 @@ export class Curve {
   show() {
     this.showKeys();
     const now = this.history.at(-1);
-    if (now) this.picture.label(`Curves of ${this.history.length} generations: the best so far walks ${number(now.best_so_far, 2)}${this.unit}, the median ${number(now.median, 2)}${this.unit}; ${kindsOf(now)}`);
+    if (now) this.picture.label(`Curves of ${now.generation + 1} generations: the best so far gets ${number(now.best_so_far, 2)}${this.unit}, the median ${number(now.median, 2)}${this.unit}; ${kindsOf(now)}`);
     this.picture.repaint();
   }
 
   showKeys() {
-    const ends = ({ name, history }) => `before: ${name}, ${number(history.at(-1).best_so_far, 1)} m (typically ${number(history.at(-1).typical, 1)} m)`;
+    const ends = ({ name, history }) => `before: ${name}, ${number(history.at(-1).best_so_far, 1)}${this.unit} (typically ${number(history.at(-1).typical, 1)}${this.unit})`;
     this.keys.replaceChildren(...LINES.map(([text, , ...look]) => lineKey(text, ...look)),
                               ...this.before.map((run, i) => lineKey(ends(run), OLD[i][0], 1.8, OLD[i][1])));
   }
 
   paint(context, width, height) {
     const { history, before } = this, runs = [history, ...before.map((run) => run.history)];
-    const most = Math.max(10, ...runs.map((run) => run.length - 1));
+    const most = Math.max(10, ...runs.map((run) => run.at(-1)?.generation ?? 0)); // of many generations not each has a row
     const bands = history.some(({ species, count }) => species?.length || count > 0) ? BANDS + GAP : 0, base = height - AXIS - bands;
     const x = (generation) => LEFT + (generation / most) * (width - LEFT - RIGHT);
     let highest = 0.1;

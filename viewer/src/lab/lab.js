@@ -104,7 +104,18 @@ export class Lab {
     return !this.unsaved || confirm(`${this.progress.generation + 1} generations are over, ${over ? "and were not saved" : "and the run is not"}. Leave it? What is not saved is lost.`);
   }
 
+  /** Why the chosen robot cannot show an experiment, or null. */
+  cannot({ title, steps }) {
+    const { configs, facts } = this.robot(), name = facts.name;
+    if (steps.some(({ set }) => set.controller && !configs[set.controller]))
+      return `${title}: ${name} has no such controller, which needs nodes made for the robot; choose a robot of the list.`;
+    if (steps.some(({ set }) => set.lost === "first") && facts.legs.length < 2) return `${title}: ${name} has one leg alone; choose another robot.`;
+    return null;
+  }
+
   setUp(experiment, step) {
+    const trouble = this.cannot(experiment);
+    if (trouble) return this.complain(trouble);
     if (!this.mayLeave()) return;
     if (this.evolution) this.anew();
     if (this.experiment !== experiment.id) {
@@ -269,8 +280,9 @@ export class Lab {
   }
 
   summary() {
-    const { generation, best, best_so_far, median, fell } = this.progress;
-    return `Generation ${generation}: best ${number(best, 2)} m, median ${number(median, 2)} m, best so far ${number(best_so_far, 2)} m; ${fell} fell; ${kindsOf(this.progress)}.`;
+    const { generation, best, best_so_far, median, fell, unit } = this.progress;
+    const scored = (value) => number(value, 2) + unit;
+    return `Generation ${generation}: best ${scored(best)}, median ${scored(median)}, best so far ${scored(best_so_far)}; ${fell} fell; ${kindsOf(this.progress)}.`;
   }
 
   worldChanged(generation, changes) {

@@ -54,23 +54,23 @@ export class MapView {
     this.mark(null);
   }
 
-  add({ map }) {
+  add({ map, unit }) {
     if (!map) return;
-    const best = Math.max(0.01, ...map.map(([, metres]) => metres)), by = new Map(map);
+    const best = Math.max(0.01, ...map.map(([, score]) => score)), by = new Map(map), scored = (score) => number(score, 2) + unit;
     let first = null;
     for (const { id, place, button } of this.cells) {
-      const metres = by.get(id);
-      button.disabled = metres === undefined;
-      if (metres === undefined) {
+      const score = by.get(id);
+      button.disabled = score === undefined;
+      if (score === undefined) {
         button.style.removeProperty("--far");
         continue;
       }
       first ??= button;
-      button.style.setProperty("--far", `${Math.round(100 * (0.12 + (0.88 * metres) / best))}%`);
-      button.setAttribute("aria-label", `${place}: ${number(metres, 2)} m`);
-      button.title = `${number(metres, 2)} m`;
+      button.style.setProperty("--far", `${Math.round(100 * (0.12 + (0.88 * score) / best))}%`);
+      button.setAttribute("aria-label", `${place}: ${scored(score)}`);
+      button.title = scored(score);
     }
     if (first && !this.cells.some(({ button }) => button.tabIndex === 0 && !button.disabled)) first.tabIndex = 0;
-    this.note.textContent = `${map.length} of ${this.cells.length} cells are filled; the best of them gets ${number(best, 2)} m. Choose one, and it walks.`;
+    this.note.textContent = `${map.length} of ${this.cells.length} cells are filled; the best of them gets ${scored(best)}. Choose one, and it walks.`;
   }
 }

@@ -25,11 +25,20 @@ export class LabStage {
     if (soon || !this.walk || !this.clock.playing) await this.takeNext();
   }
 
+  /** Until another champion comes there is none. */
+  forget() {
+    this.drag?.remove();
+    this.stage?.remove();
+    Object.assign(this, { walk: null, next: null, opening: null });
+  }
+
   async takeNext() {
-    const { text, title } = this.next;
+    const { text, title } = this.next, opening = (this.opening = {});
     this.next = null;
     this.over_s = 0;
-    const live = await LiveRobot.open(this.module, text), { robot: { name, joints }, columns } = live.describe();
+    const live = await LiveRobot.open(this.module, text);
+    if (opening !== this.opening) return; // another, or none, is wanted by now
+    const { robot: { name, joints }, columns } = live.describe();
     const same = this.walk && name === this.robotName && columns.join() === this.walk.description.columns.join();
     if (same) this.walk.become(live);
     else this.begin(live, title);
@@ -69,7 +78,7 @@ export class LabStage {
     this.began_ms = performance.now();
     this.clock.duration_s = 0;
     this.clock.seek(0);
-    this.stage.renew(0, this.walk.missingLegs());
+    this.stage.renew(0);
     this.stage.resetCamera();
     this.invalidate();
   }
@@ -82,6 +91,7 @@ export class LabStage {
 
   frame(now_ms) {
     this.asked = false;
+    if (!this.walk) return; // forgotten since
     if (this.clock.playing && this.stage.rests(now_ms)) return this.invalidate();
     this.drag.update();
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
@@ -114,7 +124,7 @@ export class LabStage {
   }
 
   paint() {
-    this.stage?.paint();
+    if (this.walk) this.stage.paint();
     this.invalidate();
   }
 

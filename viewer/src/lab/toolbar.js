@@ -76,11 +76,11 @@ export class Toolbar {
   }
 
   showNumbers(progress, evolution) {
-    const metres = (value) => [number(value, 2), element("small", {}, " m")];
+    const scored = (value) => [number(value, 2), element("small", {}, progress.unit)];
     const { rate } = evolution ?? {}, { map } = progress, of = (total) => element("small", {}, ` of ${total}`);
     const kinds = map ? [`${map.length}`, of(mapBins ** 2)] : [`${progress.count ?? progress.species.length}`];
-    const all = [[`${progress.generation + 1}`, of(evolution?.generations ?? "–")], metres(progress.best_so_far), metres(progress.typical),
-                 metres(progress.median), kinds, [rate ? number(rate, rate < 10 ? 1 : 0) : "–"]];
+    const all = [[`${progress.generation + 1}`, of(evolution?.generations ?? "–")], scored(progress.best_so_far), scored(progress.typical),
+                 scored(progress.median), kinds, [rate ? number(rate, rate < 10 ? 1 : 0) : "–"]];
     this.numbers.forEach(({ value }, i) => value.replaceChildren(...all[i]));
     this.numbers[NUMBERS.indexOf("Species")].label.textContent = map ? "Cells filled" : "Species";
   }

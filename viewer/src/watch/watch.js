@@ -57,9 +57,10 @@ export class Watch {
   /** Shows another run; the curve of the one before stays as a line. */
   choose(id) {
     if (!id || id === this.chosen) return;
+    if (this.stream.over) return this.complain("The program that served this page has ended, so no other run can be shown: start amble watch for it.");
     Object.assign(this, { chosen: id, rows: [], sizes: null, shownChampion: undefined });
-    this.another = true;
     this.forgetElite();
+    this.forgetWalker();
     location.hash = `run=${encodeURIComponent(id)}`;
     byId("map").hidden = true;
     this.stream.open(id);
@@ -86,10 +87,9 @@ export class Watch {
   take_begin({ header }) {
     const run = this.runs.get(this.chosen);
     this.read = rowReader(header);
-    this.rows = [];
+    Object.assign(this, { rows: [], sizes: null });
     this.curve.unit = run?.unit ?? " m";
-    this.curve.begin(this.chosen === "." ? (run?.name ?? "") : this.chosen, this.another ?? false);
-    this.another = false;
+    this.curve.begin(this.chosen === "." ? (run?.name ?? "") : this.chosen, false);
   }
 
   take_rows({ lines }) {
@@ -229,7 +229,17 @@ export class Watch {
     this.all.begin();
   }
 
+  /** What is in the picture is of another run. */
+  forgetWalker() {
+    this.stage.forget();
+    byId("trouble").hidden = true;
+    this.walk.hidden = document.querySelector(".footfalls").hidden = byId("inside").hidden = true;
+    byId("story").textContent = "";
+    this.curve.begin(this.chosen, true);
+  }
+
   showWalker(walk) {
+    document.querySelector(".footfalls").hidden = false;
     this.footfalls.begin(walk);
     this.inside.begin(walk, this.stage.text);
     this.showWalk();
