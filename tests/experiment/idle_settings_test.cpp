@@ -93,6 +93,41 @@ TEST(IdleAssignments, AreThoseOfAMapThatIsNotFilledSoAndOfScoresAndGroundsThatAr
             0u);
 }
 
+TEST(IdleAssignments, AreThoseOfGenomesThatAMapFillsByChangingWeightsAlone) {
+  const auto idle = [](const std::vector<std::string>& assignments) {
+    const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};
+    const auto found = idle_assignments(
+        load_config(AMBLE_SOURCE_DIR "/configs/repertoire/quadruped.toml", overrides), assignments);
+    std::vector<std::string> keys;
+    for (const std::string& text : found) keys.push_back(text.substr(0, text.find(' ')));
+    return keys;
+  };
+  using testing::ElementsAre;
+  const std::vector<std::string> of_structure{"mutation.add_node_share=0.1",
+                                              "crossover.mutate_child=false",
+                                              "innovations.key='link'",
+                                              "genome.activation_shares.sine=2",
+                                              "genome.initial_link_probability=0.5",
+                                              "search.map_elites.initial=4096"};
+  const auto with = [&](const std::string& variation) {
+    std::vector<std::string> all = of_structure;
+    all.insert(all.end(),
+               {"search.map_elites.crossover_probability=0", "search.map_elites.reevaluate_share=0.5",
+                "search.map_elites.trials=1", "search.map_elites.variation=" + variation});
+    return all;
+  };
+  EXPECT_THAT(idle(with("line")), ElementsAre("mutation.add_node_share", "crossover.mutate_child",
+                                              "innovations.key", "genome.activation_shares.sine"));
+  EXPECT_THAT(idle(with("cma")), ElementsAre("mutation.add_node_share", "crossover.mutate_child",
+                                             "innovations.key", "genome.activation_shares.sine",
+                                             "genome.initial_link_probability", "search.map_elites.initial"));
+  EXPECT_THAT(idle({"search.map_elites.crossover_probability=0", "search.map_elites.reevaluate_share=0.5",
+                    "search.map_elites.trials=1", "crossover.mutate_child=false"}),
+              ElementsAre("crossover.mutate_child"));
+  EXPECT_THAT(idle({"search.map_elites.crossover_probability=0.5", "crossover.mutate_child=false"}),
+              ElementsAre());
+}
+
 TEST(IdleParts, AreScalesOfSensorsThatTheControllerTakesAsTheyAre) {
   const auto idle = [](const std::string& kind, const std::string& of, std::vector<std::string> more = {}) {
     more.push_back("controller.sensing.sensors=[{of='" + of + "', scale=0.5}]");

@@ -89,7 +89,6 @@ TEST_P(EachChampion, AnswersRecordedSensorsWithRecordedTargetsToTheBit) {
                                neural->update == exporting::NeuralTables::Update::runge_kutta);
   for (const Build& build :
        {Build{"gcc", "gcc", "-O2", slow ? some : all},
-        {"clang", "clang-14", "-O2", some},
         {"clang_native", "clang-14", "-O2 -march=native", some},
         {"gcc_native", "gcc", "-O3 -march=native", slow ? all : some},
         {"sanitized", "clang-14", "-O1 -fsanitize=address,undefined -fno-sanitize-recover=all", some}}) {

@@ -88,6 +88,25 @@ TEST_F(PackedRecordingTest, BeginsWithTheStartPoseOfTheRobot) {
   EXPECT_EQ(values[22], SyntheticWalk{}.frame(0)[22]) << "the first step's target";
 }
 
+TEST_F(PackedRecordingTest, BeginsWhereTheTrialDidIfThatWasElsewhere) {
+  const SyntheticWalk walk{.frames = 10};
+  record::RecordingHeader header = walk.header();
+  header.com_start_m = {0.1, -0.2, 0.9};
+  header.angle_start_rad.assign(12, 0.25f);
+  header.damage_json = R"({"parts":[]})";
+  record::RecordingWriter writer(path, header);
+  for (int k = 0; k < walk.frames; ++k) writer.add(walk.frame(k));
+  writer.finish(record::Outcome::completed);
+  const auto packed = pack_recording(path);
+  const auto values = unpacked(packed.poses);
+  EXPECT_EQ(values[0], walk.frame(0)[0]) << "the root is where it was after the first step";
+  EXPECT_EQ(values[7], 0.1f);
+  EXPECT_EQ(values[8], -0.2f);
+  EXPECT_EQ(values[9], 0.9f);
+  for (std::size_t joint = 0; joint < 12; ++joint) EXPECT_EQ(values[10 + joint], 0.25f);
+  EXPECT_EQ(packed.damage_json, header.damage_json);
+}
+
 TEST_F(PackedRecordingTest, TakesFramesOfAnyRate) {
   for (const auto& [frame_s, step_s] : {std::pair{0.002, 0.02}, {0.05, 0.05}, {0.02, 0.02}, {0.008, 0.024}}) {
     const SyntheticWalk walk{.frames = 100, .frame_s = frame_s};

@@ -12,7 +12,8 @@ import { patched } from "../../viewer/src/patch.js";
 import { clipNear, cornersOf, hullOf } from "../../viewer/src/outlines.js";
 import { niceAxis } from "../../viewer/src/plot.js";
 import { GrowingRates, rates, wantedPath } from "../../viewer/src/told_path.js";
-import { footfalls, runs } from "../../viewer/src/walk.js";
+import { RobotModel } from "../../viewer/src/robot.js";
+import { footfalls, lostLegs, runs } from "../../viewer/src/walk.js";
 import { bestAfter, conditionOf, median } from "../../viewer/src/watch/all_curves.js";
 import { placeOf } from "../../viewer/src/watch/map_picture.js";
 import { clockText, rowReader, thinned } from "../../viewer/src/watch/rows.js";
@@ -181,6 +182,23 @@ test("what sensors and SUPGs say, and what passes through links, is what neurons
     });
   }
   for (const name of ["command_speed", "command_turn", "heading_error", "yaw_rate", "front_left.touch"]) assert.ok(heard.has(name), [...heard].join());
+});
+
+test("a leg that a damage takes away is gone from then on, in a walk that is recorded or simulated", async () => {
+  const robot = { legs: [{ name: "a" }, { name: "b" }] };
+  const damage = { parts: [{ kind: "numb", leg: "a", from_s: 0 }, { kind: "missing", leg: "b", from_s: 1.5 }] };
+  assert.deepEqual(lostLegs(robot, damage), [{ leg: 1, from_s: 1.5 }]);
+  assert.deepEqual(lostLegs(robot, null), []);
+  const walk = await steeredWalk(0.5);
+  const part = { kind: "missing", leg: walk.robot.legs[2].name, joint: "", body: "", angle_rad: 0, share: 0.5, mass_kg: 1, x_m: 0, y_m: 0, z_m: 0, from_s: 0 };
+  await walk.live.setDamage({ parts: [part] });
+  walk.renew();
+  walk.advance(1);
+  assert.deepEqual([walk.missingLegs(0.4), walk.missingLegs(0.9)], [[], [2]]);
+  const model = new RobotModel(walk.robot, 0), seen = () => model.parts.filter(({ leg, mesh }) => leg === 2 && mesh.visible).length;
+  assert.ok(seen() > 1);
+  model.setMissing(walk.missingLegs(0.9));
+  assert.equal(seen(), 0);
 });
 
 test("couplings are still where legs keep the difference of their phases, and pull them back where they do not", () => {
