@@ -88,7 +88,7 @@ bench:
 # As root where the folder, or the nearest one above it, may not be written.
 install: build
 	folder=$(PREFIX); while [ ! -e "$$folder" ]; do folder=$$(dirname "$$folder"); done; \
-	if [ -w "$$folder" ]; then sudo=; else sudo=$(SUDO); fi; set -x; $$sudo cmake --install build/release --prefix $(PREFIX)
+	if [ -w "$$folder" ]; then sudo=; else sudo=$(SUDO); fi; set -x; rm -f build/release/install_manifest.txt; $$sudo cmake --install build/release --prefix $(PREFIX)
 
 # The reference of the public headers: build/doxygen/html. A warning is an error.
 doxygen:

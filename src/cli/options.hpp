@@ -21,7 +21,8 @@ CLI::Validator between(Number lower, Number upper) {
     Number value{};
     // The library takes 010 for 8 and 0x10 for 16.
     const auto digits = text.find_first_not_of("+-");
-    const bool is_decimal = digits == std::string::npos || text[digits] != '0' || digits + 1 == text.size();
+    const bool is_decimal = digits == std::string::npos || text[digits] != '0' || digits + 1 == text.size() ||
+                            std::string_view("0123456789xX").find(text[digits + 1]) == std::string_view::npos;
     if (std::integral<Number> && !is_decimal)
       return fmt::format("{}: expected a whole number without a leading 0", text);
     if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return std::string();

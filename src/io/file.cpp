@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -61,27 +64,29 @@ std::string& last_read() {
   return path;
 }
 
-/// Whether the path leads to an open file of a process, as /dev/stdout does, whatever that file is.
-bool is_open_descriptor(std::filesystem::path path) {
+/// The open file of this process that a path leads to, as /dev/stdout does, whatever that file is.
+std::optional<int> own_descriptor(std::filesystem::path path) {
   constexpr int most_links = 40;  // as the kernel's
+  const std::string own = fmt::format("/proc/{}/fd", ::getpid());
   std::error_code error;
   for (int i = 0; i < most_links; ++i) {
     const auto folder = std::filesystem::canonical(std::filesystem::absolute(path).parent_path(), error);
-    if (error) return false;
-    if (folder.native().starts_with("/proc/")) return true;
-    if (!std::filesystem::is_symlink(path, error)) return false;
+    if (error) return std::nullopt;
+    int number = -1;
+    const std::string name = path.filename();
+    const auto [end, fault] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (folder == own && fault == std::errc() && end == name.data() + name.size()) return number;
+    if (!std::filesystem::is_symlink(path, error)) return std::nullopt;
     const auto target = std::filesystem::read_symlink(path, error);
-    if (error) return false;
+    if (error) return std::nullopt;
     path = target.is_absolute() ? target : folder / target;
   }
-  return false;
+  return std::nullopt;
 }
 
 bool is_special_file(const std::filesystem::path& path) {
   struct stat status {};
-  const bool is_regular =
-      ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
-  return !is_regular || is_open_descriptor(path);
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
 namespace fs = std::filesystem;
@@ -177,6 +182,12 @@ std::optional<std::filesystem::path> destination_of(const std::filesystem::path&
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
+  if (const auto own = own_descriptor(path)) {
+    std::fflush(stdout);  // what was printed before comes before
+    fd_ = ::dup(*own);
+    if (fd_ < 0) fail_to_write(path_, errno);
+    return;
+  }
   if (!is_special_file(path)) written_path_ = temporary_of(path);
   fd_ = ::open(written_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd_ < 0) fail_to_write(path_, errno);
@@ -254,6 +265,7 @@ void refuse_to_replace(const std::filesystem::path& path, std::string_view begin
 }
 
 void check_output(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
+  if (own_descriptor(path)) return;
   refuse_to_replace(path, beginning, what);
   if (is_special_file(path)) return;
   if (fs::is_directory(path) || !path.has_filename()) fail_to_write(path, EISDIR);

@@ -313,15 +313,46 @@ class MassMender {
     }
   }
 
+  /// A shape in its body's frame.
+  struct Placed {
+    robot::Geom shape;
+    robot::Pose pose;
+  };
+
+  /// A cylinder with a ball of its radius about each end is a capsule, of which half of either ball is new.
+  static void join_capsules(std::vector<Placed>& shapes) {
+    const auto ball_at = [&shapes](Vec3 end_m, double radius_m) {
+      return std::ranges::find_if(shapes, [=](const Placed& ball) {
+        return ball.shape.shape == robot::Shape::sphere &&
+               std::abs(ball.shape.size_m.x - radius_m) <= 1e-6 * radius_m &&
+               norm(ball.pose.position_m - end_m) <= 1e-6 * radius_m;
+      });
+    };
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (shapes[i].shape.shape != robot::Shape::cylinder) continue;
+      const double radius_m = shapes[i].shape.size_m.x, half_m = shapes[i].shape.size_m.y;
+      const auto ends = {shapes[i].pose * Vec3{0.0, 0.0, -half_m}, shapes[i].pose * Vec3{0.0, 0.0, half_m}};
+      if (std::ranges::any_of(ends, [&](Vec3 end) { return ball_at(end, radius_m) == shapes.end(); }))
+        continue;
+      shapes[i].shape.shape = robot::Shape::capsule;
+      for (const Vec3 end : ends) ball_at(end, radius_m)->shape.size_m.x = 0.0;
+    }
+    std::erase_if(shapes, [](const Placed& each) {
+      return each.shape.size_m.x == 0.0 && each.shape.shape == robot::Shape::sphere;
+    });
+  }
+
   Solid solid_of(int b, bool colliding) const {
-    Solid solid;
+    std::vector<Placed> shapes;
     for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g) {
       if (collides(model_, g) != colliding || is_placeholder(g)) continue;
       if (const auto shape = shape_of(model_, g, colliding))
-        add(solid, *shape,
-            robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)} *
-                robot::Pose{shape->position_m, shape->rotation});
+        shapes.push_back({*shape, robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)} *
+                                      robot::Pose{shape->position_m, shape->rotation}});
     }
+    join_capsules(shapes);
+    Solid solid;
+    for (const Placed& placed : shapes) add(solid, placed.shape, placed.pose);
     return solid;
   }
 

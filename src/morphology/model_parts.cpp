@@ -118,10 +118,8 @@ class PartsExtractor {
 
   void free_root() {
     const int joints = model_.body_jntnum[root_], first = model_.body_jntadr[root_];
-    if (joints == 1 && model_.jnt_type[first] == mjJNT_FREE) {
-      parts_.root_is_free = true;
-      return;
-    }
+    parts_.root_is_free = joints == 0 || (joints == 1 && model_.jnt_type[first] == mjJNT_FREE);
+    if (joints == 1 && parts_.root_is_free) return;
     if (joints == 0 && file_.root_is_welded) return;
     std::vector<std::string> names;
     for (int j = first; j < first + joints; ++j) {

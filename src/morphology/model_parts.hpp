@@ -28,7 +28,7 @@ struct ModelParts {
   std::vector<robot::Body> bodies;
   std::vector<robot::Joint> joints;  ///< in the order of the model, without servo, but with its spring
   std::vector<Drive> drives;         ///< per joint: what moves it in the model
-  bool root_is_free = false;         ///< whether the model's root moves by a free joint
+  bool root_is_free = false;         ///< whether the model's root moves by a free joint, or by none
   std::vector<double> start_rad;     ///< per joint: the start pose's angle as the model counts it
   std::vector<robot::Geom> geoms;
   std::vector<int> model_joints, model_geoms;  ///< MuJoCo's numbers of `joints` and `geoms`

@@ -237,15 +237,14 @@ bool is_ground(const mjModel_& model, int geom) {
 }
 
 void let_visuals_collide(mjModel_& model, ReadingNotes& notes) {
-  // What stands in the world and carries nothing that moves is not the robot.
-  std::vector<bool> of_robot(to_index(model.nbody));
-  for (int body = model.nbody - 1; body > 0; --body) {
-    of_robot[to_index(body)] = of_robot[to_index(body)] || model.body_weldid[body] != 0;
-    if (of_robot[to_index(body)]) of_robot[to_index(model.body_parentid[body])] = true;
-  }
+  // A tree of bodies of which none moves is not the robot.
+  std::vector<bool> moves(to_index(model.nbody));
+  for (int body = 1; body < model.nbody; ++body)
+    if (model.body_weldid[body] != 0) moves[to_index(model.body_rootid[body])] = true;
   std::vector<int> shapes;
   for (int g = 0; g < model.ngeom; ++g) {
-    if (model.geom_bodyid[g] == 0 || !of_robot[to_index(model.geom_bodyid[g])]) continue;
+    const int body = model.geom_bodyid[g];
+    if (body == 0 || !moves[to_index(model.body_rootid[body])]) continue;
     if (collides(model, g)) return;
     shapes.push_back(g);
   }

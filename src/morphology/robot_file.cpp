@@ -1,6 +1,7 @@
 #include "amble/morphology/robot_file.hpp"
 
 #include <fmt/ranges.h>
+#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
+#include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/original_model.hpp"
 #include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/side_file.hpp"
@@ -241,6 +243,17 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
 
 }  // namespace
 
+namespace {
+
+bool has_obstacles(const mjModel_& model) {
+  for (int g = 0; g < model.ngeom; ++g)
+    if (model.body_weldid[model.geom_bodyid[g]] == 0 && collides(model, g) && !is_ground(model, g))
+      return true;
+  return false;
+}
+
+}  // namespace
+
 robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes) {
   const SideFile side = read_side_file(path);
   return make_robot(side, compile_model(side.model), path.string(), notes);
@@ -258,8 +271,10 @@ robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const 
   if (side.keep_model) robot.original = keep_model(model, options, parts, robot, parts.notes);
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
-  // Robots start above the origin (docs/CONVENTIONS.md).
-  if (parts.root_is_free) robot.bodies[0].position_m.x = robot.bodies[0].position_m.y = 0.0;
+  // Robots start above the origin (docs/CONVENTIONS.md), unless they keep what stands about them in the
+  // model.
+  if (parts.root_is_free && !(robot.original && has_obstacles(*model.model)))
+    robot.bodies[0].position_m.x = robot.bodies[0].position_m.y = 0.0;
   if (side.root_height_m != 0.0) robot.bodies[0].position_m.z = side.root_height_m;
   robot.contact = side.contact;
   robot.gravity_m_s2 = parts.gravity_m_s2;

@@ -194,6 +194,10 @@ void replace_capsules(XmlElement& root, ReadingNotes& notes) {
         continue;
       }
       const std::string of = link.attribute_or("name", "");
+      if (form->name != "capsule" && shape.name == "visual") {
+        notes.add(Reading::left_out, fmt::format("what is only to look at: <{}> of '{}'", form->name, of));
+        continue;
+      }
       if (form->name != "capsule")
         fail(ExitCode::bad_input, "{}:{}: link '{}': <{}>: expected a box, cylinder, sphere, capsule or mesh",
              form->file, form->line, of, form->name);
@@ -207,6 +211,10 @@ void replace_capsules(XmlElement& root, ReadingNotes& notes) {
       replaced.push_back(of);
     }
     link.children = std::move(parts);
+    // So that its mass is that of its shapes as mend_masses() counts them: balls are half within a cylinder.
+    const bool split = !replaced.empty() && replaced.back() == link.attribute_or("name", "");
+    if (split && link.child("inertial") == nullptr)
+      link.children.push_back(XmlElement{.name = "inertial", .file = link.file, .line = link.line});
   }
   if (!replaced.empty())
     notes.add(Reading::replaced,

@@ -184,10 +184,13 @@ double CentroidCells::share_inside(std::span<const float> descriptor, double dev
   const double half = half_edge(count(), dimensions_);
   double share = 1.0;
   for (std::size_t i = 0; i < dimensions_; ++i) {
-    const double from_centre = place_of(descriptors_[i], descriptor[i]) - double{centroids_[first + i]};
+    const double place = place_of(descriptors_[i], descriptor[i]),
+                 from_centre = place - double{centroids_[first + i]};
     const std::uint8_t* const reaches = &reaches_[2 * (first + i)];
-    const double below = reaches[0] ? 0.0 : statistics::normal_cdf((-half - from_centre) / deviation);
-    const double above = reaches[1] ? 0.0 : statistics::normal_cdf((from_centre - half) / deviation);
+    const double below =
+        reaches[0] || place <= 0.0 ? 0.0 : statistics::normal_cdf((-half - from_centre) / deviation);
+    const double above =
+        reaches[1] || place >= 1.0 ? 0.0 : statistics::normal_cdf((from_centre - half) / deviation);
     share *= 1.0 - below - above;
   }
   return share;

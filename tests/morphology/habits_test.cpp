@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
@@ -127,6 +128,23 @@ TEST(Urdf, MayHaveCapsules) {
   ASSERT_EQ(balls.size(), 3u) << "two of the left shin, and the right one's foot";
   EXPECT_NEAR(norm(balls[0] - balls[1]), 0.2, 1e-9);
   EXPECT_NEAR(std::abs(balls[0].y - balls[1].y), 0.2, 1e-9) << "its axis is turned to y";
+  // Without a mass of its own the link weighs what a capsule of water does: the balls are half within the
+  // cylinder.
+  const std::string inertial =
+      R"(<inertial><mass value="0.3"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>)";
+  const std::string light =
+      with(urdf_with_effort(), "<link name=\"left_shin\">" + inertial, "<link name=\"left_shin\">");
+  const std::string ball = R"(<sphere radius="0.03"/>)";
+  const ModelParts weighed = extract_parts(
+      compile_model(files.write("r.urdf", with(light, ball, R"(<capsule radius="0.03" length="0.2"/>)"))));
+  const auto shin = std::ranges::find(weighed.bodies, "left_shin", &robot::Body::name);
+  ASSERT_NE(shin, weighed.bodies.end());
+  EXPECT_NEAR(shin->mass_kg, 1000.0 * std::numbers::pi * 0.03 * 0.03 * (0.2 + 4.0 / 3.0 * 0.03), 1e-6);
+  EXPECT_THAT(
+      read(
+          R"(<visual><geometry><egg/></geometry></visual><collision><geometry><sphere radius="0.03"/></geometry></collision>)")
+          .notes.text(),
+      HasSubstr("what is only to look at: <egg> of 'left_shin'"));
   EXPECT_THAT(files.error_of([&] { read("<collision><geometry><egg/></geometry></collision>"); }),
               HasSubstr("link 'left_shin': <egg>: expected a box, cylinder, sphere, capsule or mesh"));
 }

@@ -13,7 +13,7 @@ const startWorker = () => new Worker(URL.createObjectURL(new Blob([AMBLE_EVOLVE_
 export class EvolvePanel {
   /** `live`: {module, champion: a file's text, show(champion's text)}. */
   constructor(live) {
-    Object.assign(this, { live, history: [], best: null, worker: null, running: false, frame: null });
+    Object.assign(this, { live, history: [], stride: 1, best: null, worker: null, running: false, frame: null });
     this.population = slider(20, 300, 10, 100);
     this.seconds = slider(2, 20, 1, 8);
     this.nodes = slider(0, 0.3, 0.01, 0.05);
@@ -68,7 +68,7 @@ export class EvolvePanel {
 
   stop() {
     this.worker?.terminate();
-    Object.assign(this, { worker: null, running: false, history: [], best: null });
+    Object.assign(this, { worker: null, running: false, history: [], stride: 1, best: null });
     this.refresh();
   }
 
@@ -78,9 +78,14 @@ export class EvolvePanel {
       this.status.textContent = `Evolution ended: ${error}`;
       return;
     }
+    // A run has no end, its curve has: of generations every other, every fourth, … stays, and the last.
+    const stays = ({ generation }) => generation % this.stride === 0;
+    if (this.history.length && !stays(this.history.at(-1))) this.history.pop();
+    if (this.history.length >= 2 * MOST_SHOWN) {
+      this.stride *= 2;
+      this.history = this.history.filter(stays);
+    }
     this.history.push(progress);
-    // A run has no end, its curve has: every other generation goes, but what happened last.
-    if (this.history.length > 2 * MOST_SHOWN) this.history = this.history.filter((row, i, { length }) => i % 2 === 0 || i === length - 1);
     if (best) this.best = { text: best, generation: progress.best_generation };
     // Small populations have several generations a frame, and what cannot be seen is not drawn.
     this.frame ??= requestAnimationFrame(() => {

@@ -57,7 +57,7 @@ export class Watch {
   /** Shows another run; the curve of the one before stays as a line. */
   choose(id) {
     if (!id || id === this.chosen) return;
-    if (this.stream.over) return this.complain("The program that served this page has ended, so no other run can be shown: start amble watch for it.");
+    if (this.stream.over) return this.complain("The program that served this page has ended, so no other run can be shown: amble view FOLDER --live shows it.");
     Object.assign(this, { chosen: id, rows: [], sizes: null, shownChampion: undefined });
     this.forgetElite();
     this.forgetWalker();
@@ -137,6 +137,7 @@ export class Watch {
       const text = await answer.text();
       if (id !== this.chosen || champion !== this.shownChampion || this.elite !== null) return;
       await this.stage.show(text, `Best of generation ${champion}`, { soon: first });
+      if (id !== this.chosen) return;
       if (first && !this.still) this.stage.clock.play();
       this.walk.hidden = false;
     } catch (error) {
@@ -156,6 +157,7 @@ export class Watch {
       const text = await answer.text();
       if (id !== this.chosen || cell !== this.elite) return;
       await this.stage.show(text, `Cell ${cell} of the map`);
+      if (id !== this.chosen || cell !== this.elite) return;
       this.stage.clock.play();
       this.walk.hidden = this.best.hidden = false;
     } catch (error) {
