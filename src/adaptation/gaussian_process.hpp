@@ -14,7 +14,7 @@ struct Prediction {
 
 /// Regression by a Gaussian process of mean 0 and variance 1 (Rasmussen & Williams 2006, algorithm 2.1), with
 /// the Matérn kernel of ν = 5/2: k(d) = (1 + √5 d/ρ + 5 d²/(3 ρ²)) exp(−√5 d/ρ), d the Euclidean distance,
-/// along the chord in dimensions that are circles: the way round has no kernel that is positive definite.
+/// along the chord in dimensions that are circles: of the way round the kernel is not positive definite.
 /// Cost of observe(): O(n³) for n observations, of predict(): O(n²). Its last bits depend on the library's
 /// exp().
 class GaussianProcess {

@@ -184,7 +184,7 @@ std::optional<std::filesystem::path> destination_of(const std::filesystem::path&
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
   if (const auto own = own_descriptor(path)) {
     std::fflush(stdout);  // what was printed before comes before
-    fd_ = ::dup(*own);
+    fd_ = ::fcntl(*own, F_DUPFD_CLOEXEC, 0);
     if (fd_ < 0) fail_to_write(path_, errno);
     return;
   }

@@ -34,13 +34,6 @@ std::set<std::string> names_of(const XmlElement& root, std::string_view kind) {
   return names;
 }
 
-/// `name`, or with a number behind it if it is taken.
-std::string free_name(std::set<std::string>& taken, const std::string& name) {
-  if (taken.insert(name).second) return name;
-  for (int k = 1;; ++k)
-    if (std::string next = fmt::format("{}.{}", name, k); taken.insert(next).second) return next;
-}
-
 std::string text_of(Vec3 v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
 }
@@ -305,6 +298,12 @@ void name_joints_of(XmlElement& body, bool is_root, std::set<std::string>& names
 }
 
 }  // namespace
+
+std::string free_name(std::set<std::string>& taken, const std::string& name) {
+  if (taken.insert(name).second) return name;
+  for (int k = 1;; ++k)
+    if (std::string next = fmt::format("{}.{}", name, k); taken.insert(next).second) return next;
+}
 
 void resolve_frames(XmlElement& root, ReadingNotes& notes) {
   bool any = false;

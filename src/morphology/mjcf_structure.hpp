@@ -1,9 +1,15 @@
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/morphology/xml_tree.hpp"
 
 namespace amble::morphology {
+
+/// `name`, or with ".1", ".2", … behind it if it is taken; it is then.
+std::string free_name(std::set<std::string>& taken, const std::string& name);
 
 /// What newer versions of MuJoCo, exporters and people write of a model's tree of bodies, as the installed
 /// MuJoCo and amble read it. All of it is noted.

@@ -69,10 +69,8 @@ class MjcfCleaner {
       if (element.name == "key") names.insert(element.attribute_or("name", ""));
     });
     root_.visit([&](XmlElement& element, XmlElement*) {
-      if (element.name != "key" || !element.attribute_or("name", "").empty()) return;
-      std::string name = "key";
-      for (int k = 2; !names.insert(name).second; ++k) name = fmt::format("key_{}", k);
-      element.set("name", name);
+      if (element.name == "key" && element.attribute_or("name", "").empty())
+        element.set("name", free_name(names, "key"));
     });
   }
 

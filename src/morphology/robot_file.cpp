@@ -241,10 +241,7 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
          what, robot.fall_above_m, start_m);
 }
 
-}  // namespace
-
-namespace {
-
+/// Whether shapes that collide stand about a model's robot, besides the ground.
 bool has_obstacles(const mjModel_& model) {
   for (int g = 0; g < model.ngeom; ++g)
     if (model.body_weldid[model.geom_bodyid[g]] == 0 && collides(model, g) && !is_ground(model, g))

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -168,11 +167,10 @@ XmlElement with_form(const XmlElement& shape, XmlElement form, double along_m) {
   std::vector<double> xyz = numbers_of(origin.attribute_or("xyz", "0 0 0")),
                       rpy = numbers_of(origin.attribute_or("rpy", "0 0 0"));
   xyz.resize(3), rpy.resize(3);
-  const double cr = std::cos(rpy[0]), sr = std::sin(rpy[0]), cp = std::cos(rpy[1]), sp = std::sin(rpy[1]),
-               cy = std::cos(rpy[2]), sy = std::sin(rpy[2]);
-  const std::array axis{cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
-  origin.set("xyz", fmt::format("{} {} {}", xyz[0] + along_m * axis[0], xyz[1] + along_m * axis[1],
-                                xyz[2] + along_m * axis[2]));
+  const Quat rotation =
+      axis_angle({0, 0, 1}, rpy[2]) * axis_angle({0, 1, 0}, rpy[1]) * axis_angle({1, 0, 0}, rpy[0]);
+  const Vec3 at = Vec3{xyz[0], xyz[1], xyz[2]} + rotate(rotation, {0.0, 0.0, along_m});
+  origin.set("xyz", fmt::format("{} {} {}", at.x, at.y, at.z));
   return made;
 }
 
@@ -183,6 +181,7 @@ void replace_capsules(XmlElement& root, ReadingNotes& notes) {
   std::vector<std::string> replaced;
   for (XmlElement& link : root.children) {
     if (link.name != "link") continue;
+    const std::size_t before = replaced.size();
     std::vector<XmlElement> parts;
     for (XmlElement& shape : link.children) {
       const XmlElement* const geometry =
@@ -212,8 +211,7 @@ void replace_capsules(XmlElement& root, ReadingNotes& notes) {
     }
     link.children = std::move(parts);
     // So that its mass is that of its shapes as mend_masses() counts them: balls are half within a cylinder.
-    const bool split = !replaced.empty() && replaced.back() == link.attribute_or("name", "");
-    if (split && link.child("inertial") == nullptr)
+    if (replaced.size() > before && link.child("inertial") == nullptr)
       link.children.push_back(XmlElement{.name = "inertial", .file = link.file, .line = link.line});
   }
   if (!replaced.empty())

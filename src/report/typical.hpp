@@ -32,8 +32,9 @@ struct TypicalCurve {
 struct TypicalTable {
   struct Column {
     std::string level;  ///< empty: undisturbed
-    std::vector<std::string>
-        measures;  ///< "milli.distance_m"; undisturbed: of a test without noise, or "train_m"
+    /// "milli.distance_m", …, of which a condition has one; undisturbed: of tests without noise, or
+    /// "train_m".
+    std::vector<std::string> measures;
   };
 
   std::string engine;  ///< empty: that of the runs

@@ -143,7 +143,7 @@ double half_edge(std::size_t cells, std::size_t dimensions) {
 std::vector<std::uint8_t> reached_ends(const CentroidTree& tree, std::span<const float> centroids,
                                        std::size_t dimensions) {
   const std::size_t count = centroids.size() / dimensions;
-  const double near = 4.0 * half_edge(count, dimensions);  // no cell is so long; looking costs time
+  const double near = 4.0 * half_edge(count, dimensions);  // cells are hardly so long, and looking costs time
   std::vector<std::uint8_t> reaches;
   reaches.reserve(2 * centroids.size());
   std::vector<float> point(dimensions);

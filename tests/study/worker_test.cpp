@@ -1,6 +1,7 @@
 #include "amble/study/worker.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "amble/ledger/measures.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
+#include "tests/core/error_of.hpp"
 #include "tests/study/fixture.hpp"
 
 namespace amble::study {
@@ -141,6 +143,9 @@ TEST(Worker, RecordsWhatAMapKeepsInNewTrialsIfTheStudyAsks) {
   const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
   EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
   EXPECT_EQ(kept.load("map", 3).map_trials, 3);
+  study.map_trials = 2;
+  EXPECT_THAT(tests::error_of([&] { survey(make_plan(study, folder.path())); }),
+              testing::HasSubstr("its map was tried again with map_trials = 3 instead of 2"));
   EXPECT_EQ(plain.map_trials, 0);
 }
 

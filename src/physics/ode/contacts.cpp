@@ -13,13 +13,11 @@ using robot::Geom;
 using robot::RobotSpec;
 using robot::Shape;
 
-/// How far a mesh's corners are from their mean, where ODE has its centre, or from its origin: the larger.
+/// How far a mesh's corners are from ODE's centre of it, or from its origin: the larger.
 double mesh_radius(const Geom& geom) {
-  Vec3 mean;
-  for (const Vec3 vertex : geom.vertices_m)
-    mean = mean + (1.0 / static_cast<double>(geom.vertices_m.size())) * vertex;
+  const Vec3 centre = mesh_centre(geom);
   double radius_m = geom.size_m.x;
-  for (const Vec3 vertex : geom.vertices_m) radius_m = std::max(radius_m, norm(vertex - mean));
+  for (const Vec3 vertex : geom.vertices_m) radius_m = std::max(radius_m, norm(vertex - centre));
   return radius_m;
 }
 

@@ -289,6 +289,13 @@ void World::add_hinges(const RobotSpec& robot, int body, const std::vector<int>&
   }
 }
 
+Vec3 mesh_centre(const Geom& geom) {
+  Vec3 centre;
+  for (const Vec3 vertex : geom.vertices_m)
+    centre = centre + (1.0 / static_cast<double>(geom.vertices_m.size())) * vertex;
+  return centre;
+}
+
 void World::add_geoms(const RobotSpec& robot) {
   ground_ = dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
   for (const Geom& geom : robot.geoms) {
@@ -299,8 +306,7 @@ void World::add_geoms(const RobotSpec& robot) {
     Vec3 centre;
     dGeomID id = nullptr;
     if (geom.shape == Shape::mesh) {
-      for (const Vec3 vertex : geom.vertices_m)
-        centre = centre + (1.0 / static_cast<double>(geom.vertices_m.size())) * vertex;
+      centre = mesh_centre(geom);
       id = new_convex(convexes_.emplace_back(convex_arrays(geom, centre)));
     } else {
       id = new_geom(geom);

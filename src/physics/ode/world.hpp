@@ -23,6 +23,9 @@ class Fault : public std::runtime_error {
 /// silent and throw Fault instead of aborting, and the thread's data once per thread.
 void prepare_thread();
 
+/// Where ODE has the centre of a mesh: the mean of its corners, in the geom's axes.
+Vec3 mesh_centre(const robot::Geom& geom);
+
 /// Runs the steps of one world in the calling thread. ODE's default shares one implementation among all
 /// worlds of the process, which fails an assertion as soon as two threads step.
 class Threading {
