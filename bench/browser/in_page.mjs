@@ -40,6 +40,29 @@ const live = ({ url, seconds }) => inFrame(url, async (page) => {
   return { frames_s: page.amble.frames().length / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s };
 });
 
+/** Moves a page's slider all over its walk: ms of script that each frame took. */
+const scrub = ({ url, inputs }) => inFrame(url, async (page) => {
+  await until("it stands", () => page.amble?.duration);
+  page.amble.pause();
+  page.amble.frames().length = 0;
+  const slider = page.document.getElementById("slider");
+  for (let i = 1; i <= inputs; ++i) {
+    slider.value = page.amble.duration * ((i * 37) % inputs) / inputs;
+    slider.dispatchEvent(new page.Event("input"));
+    await new Promise((then) => page.requestAnimationFrame(then));
+  }
+  return { frames_ms: [...page.amble.frames()] };
+});
+
+/** Lets a champion's page simulate so many seconds ahead, diagrams and all: ms. */
+const ahead = ({ url, seconds }) => inFrame(url, async (page) => {
+  await until("it walks", () => page.amble.live() && page.amble.time() > 1);
+  page.amble.pause();
+  const begin_ms = performance.now();
+  page.amble.simulate(seconds);
+  return { took_ms: performance.now() - begin_ms };
+});
+
 /** Lets a page that only clears a canvas do so: pictures/s. */
 const blank = ({ url, seconds }) => inFrame(url, async (page) => {
   const begin_ms = performance.now();
@@ -67,4 +90,4 @@ const lab = ({ url, seed, metres, generations }) => inFrame(url, async (page) =>
   return { ...told, robot: amble.robot().name, rows: history.length, said: textOf(page, "#said") };
 });
 
-export default { who: () => navigator.userAgent, steps, live, blank, lab };
+export default { who: () => navigator.userAgent, steps, live, scrub, ahead, blank, lab };

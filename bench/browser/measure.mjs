@@ -12,7 +12,7 @@ const { values: options, positionals: [build, modules, ...named] } = parseArgs({
   allowPositionals: true, options: { quick: { type: "boolean", default: false }, live: { type: "boolean", default: false }, seeds: { type: "string" } },
 });
 const paths = named.length ? named : ["servo", "octopod"].map((name) => `robots/${name}/champion.json`);
-const COUNT = options.quick ? 100 : 1000, LIVE_S = options.quick ? 3 : 20, METRES = options.quick ? 1 : 3, GENERATIONS = options.quick ? 10 : 300;
+const COUNT = options.quick ? 100 : 1000, LONG_S = options.quick ? 30 : 300, LIVE_S = options.quick ? 3 : 20, METRES = options.quick ? 1 : 3, GENERATIONS = options.quick ? 10 : 300;
 const SEEDS = Array.from({ length: Number(options.seeds ?? (options.quick ? 1 : 3)) }, (_, i) => i + 1);
 const MODULES = { exact: "exact, without relaxed SIMD", relaxed: "relaxed SIMD, the same bits", rounding: "products rounded: other bits" };
 const program = resolve(build, "src/cli/amble");
@@ -71,6 +71,21 @@ async function livePages(browsers) {
       return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent(page_s / LIVE_S)}; ${percent(all_s / LIVE_S)}`;
     });
   }
+}
+
+/** Waits that a reader would feel: a slider over five minutes, and seconds simulated at once. */
+async function waits(browsers) {
+  const record = join(folder, "long.rec"), page = join(folder, "long.html");
+  execFileSync(program, ["trial", paths[0], "--undisturbed", "--seconds", String(LONG_S), "--record", record]);
+  execFileSync(program, ["view", record, "-o", page]);
+  await pageRow(browsers, `${robots[0]}, a page of ${LONG_S} s (${(statSync(page).size / 1e6).toFixed(2)} MB) under its slider: ms of script a frame (median; 95 %; worst)`, async ({ browser }) => {
+    const { frames_ms } = await browser.run("scrub", { url: "/pages/long.html", inputs: 60 });
+    frames_ms.sort((a, b) => a - b);
+    return [0.5, 0.95, 1].map((share) => one(frames_ms[Math.floor(share * (frames_ms.length - 1))])).join("; ");
+  });
+  for (const robot of robots)
+    await pageRow(browsers, `${robot}, 10 s simulated at once, diagrams and all: ms`, async ({ browser }) =>
+      (await browser.run("ahead", { url: `/pages/${robot}.html#live`, seconds: 10 })).took_ms.toFixed(0));
 }
 
 /** What the browser takes around any page whose picture changes. */
@@ -147,6 +162,7 @@ try {
   if (browsers.length) {
     head("page", ...browsers.map(({ called }) => called));
     await livePages(browsers);
+    await waits(browsers);
     await blankPage(browsers);
   }
   if (browsers.length && !options.live) {
