@@ -46,9 +46,12 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
 std::optional<gait::Report> measure(const GaitOptions& options) {
   if (fs::is_directory(options.path) || experiment::is_no_recording(options.path))
     return champion_gait(experiment::champion_at(options.path), options);
-  if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
-  if (options.disturbance.asked() || options.disturbance.undisturbed)
-    fail(ExitCode::bad_input, "--level, --trials, --undisturbed: a recording has been made already");
+  const bool disturbed = options.disturbance.asked() || options.disturbance.undisturbed;
+  if (options.engine || disturbed) {
+    const io::InputFile there(options.path);  // a missing file is the first thing to tell
+    fail(ExitCode::bad_input, "{}: {} has been made already",
+         options.engine ? "--engine" : "--level, --trials, --undisturbed", options.path.string());
+  }
   return gait::recorded_gait(options.path, options.settings, options.seconds);
 }
 

@@ -31,8 +31,10 @@ struct ViewOptions {
 };
 
 void add_recording(presentation::WalkersPage& page, const fs::path& input, const ViewOptions& options) {
-  if (const auto key = options.of_all.not_for_recordings(); !key.empty())
+  if (const auto key = options.of_all.not_for_recordings(); !key.empty()) {
+    const io::InputFile there(input);  // a missing file is the first thing to tell
     fail(ExitCode::bad_input, "--{}: {} has been made already", key, input.string());
+  }
   page.add_recording(input);
 }
 

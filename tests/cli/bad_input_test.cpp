@@ -300,6 +300,12 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   expect_refusal({"gait", recording, "--seconds", "nan"}, ExitCode::bad_input, "nan");
   expect_refusal({"view", recording, "--seconds", "3", "-o", out_}, ExitCode::bad_input,
                  "--seconds: " + recording + " has been made already");
+  expect_refusal({"gait", recording, "--engine", "ode"}, ExitCode::bad_input,
+                 "--engine: " + recording + " has been made already");
+  expect_refusal({"view", scratch_ / "nowhere", "--level", "micro", "-o", out_}, ExitCode::io,
+                 "nowhere: No such file or directory");
+  expect_refusal({"gait", scratch_ / "nowhere", "--engine", "ode"}, ExitCode::io,
+                 "nowhere: No such file or directory");
 }
 
 TEST_F(BadInput, GaitOfWhatHasNone) {

@@ -198,8 +198,9 @@ TEST_F(Surroundings, AStoppedViewLeavesNothingInTheFolderForTemporaryFiles) {
   ASSERT_EQ(shell(evolve("run")).code, ok);
   for (const char* signal : {"HUP", "TERM", "INT"}) {
     const Said stopped =
-        shell(std::string("mkdir -p tmp; TMPDIR=$PWD/tmp amble view run --seconds 3000 --engine ode -o "
-                          "long.html & sleep 0.4; kill -") +
+        shell(std::string(
+                  "mkdir -p tmp; TMPDIR=$PWD/tmp amble view run --undisturbed --seconds 3000 --engine ode -o "
+                  "long.html & while kill -0 $! && [ -z \"$(ls -A tmp)\" ]; do sleep 0.01; done; kill -") +
               signal + " $!; wait $!");
     EXPECT_EQ(stopped.code, interrupted) << signal << stopped.text;
     EXPECT_THAT(left_in("tmp"), testing::IsEmpty()) << signal;

@@ -251,7 +251,7 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
       navigator.getGamepads = () => [{ axes: [0, -1] }];
       dispatchEvent(new Event("gamepadconnected"));
     });
-    await page.waitForFunction(() => window.amble.playing(), null, { timeout: 5000 }); // a stick wakes it
+    await page.waitForFunction(() => window.amble.playing()); // a stick wakes it
     await page.evaluate(() => window.amble.pause());
     assert.match(await natively(page, "steered-inputs.json", OBEYS), /^bits +the same in every step$/m);
   }, path);
