@@ -52,6 +52,7 @@ struct OpenSearch {
 
   std::shared_ptr<Task> task;
   std::optional<experiment::RunState> state;
+  bool has_asked = false;                        ///< for the genomes of this round, or was pickled
   std::vector<std::vector<std::uint64_t>> told;  ///< hashes of the genomes of each round that is over
   std::vector<std::string> logs;                 ///< as far as they have been taken
   CallLock lock;                                 ///< of state, told and logs
@@ -66,6 +67,7 @@ LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) 
 std::vector<neat::Genome> ask(OpenSearch& self) {
   const auto lock = self.lock.hold();
   const auto candidates = self.state->strategy->ask();
+  self.has_asked = true;
   return {candidates.begin(), candidates.end()};
 }
 
@@ -97,6 +99,13 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
     const auto both = fitness.cast<py::tuple>();
     return tell(self, both[0], both[1], fitness.attr("viable"));
   }
+  {
+    const auto lock = self.lock.hold();
+    if (!self.has_asked)
+      throw py::value_error(fmt::format(
+          "tell: round {} has not been asked for: expected ask() first, and one tell() for each round",
+          self.state->strategy->round()));
+  }
   const auto candidates = static_cast<py::ssize_t>(ask(self).size());
   const auto length = static_cast<py::ssize_t>(self.task->behaviour().length());
   const auto values = numbers_of<double>(fitness, "fitness", {candidates});
@@ -121,6 +130,7 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
   for (const neat::Genome& genome : genomes) hashes.push_back(genome.hash());
   self.state->strategy->tell(evaluations);
   self.told.push_back(std::move(hashes));
+  self.has_asked = false;
 }
 
 /// Config, checkpoint, logs, as a run folder has them; and the hashes of what was told.
@@ -141,6 +151,7 @@ std::unique_ptr<OpenSearch> unpickled_search(const py::tuple& state) {
   constexpr const char* what = "Search: its pickled state";
   if (state.size() != 4) throw py::value_error(std::string(what) + " is of another version");
   auto search = std::make_unique<OpenSearch>(state[0].cast<const LoadedConfig&>());
+  search->has_asked = true;
   auto& strategy = *search->state->strategy;
   experiment::parse_checkpoint(state[1].cast<std::string>(), what, search->task->config.value, strategy);
   search->logs = state[2].cast<std::vector<std::string>>();
@@ -351,9 +362,10 @@ With evaluate(search, genomes) it evolves what evolve() does, to the bit. Can be
            py::arg("config"), py::arg("seed") = py::none(),
            "config: Config or path. seed: of all randomness (default: the config's). Raises Error.")
       .def("ask", ask, "The genomes of this round: a list, the same until tell().")
-      .def("tell", tell, py::arg("fitness"), py::arg("behaviour") = py::none(),
-           py::arg("viable") = py::none(),
-           R"(Takes what the genomes of ask() are worth, in their order, and advances to the next round.
+      .def(
+          "tell", tell, py::arg("fitness"), py::arg("behaviour") = py::none(), py::arg("viable") = py::none(),
+          R"(Takes what the genomes of ask() are worth, in their order, and advances to the next round: once after each
+ask().
 
 fitness: n numbers, finite, at least 0, higher is better; or all that evaluate() returned. behaviour:
 n × behaviour_length, finite; needed where the config's search compares behaviours, else unused. viable: n bools

@@ -35,8 +35,8 @@ class Commands:
         self._stretch = max(1, round(self._settings["stretch_s"] / robots.timestep_s))
         count = len(robots)
         self.told = np.zeros((count, 2), np.float32)  # speed along its forward axis, m/s, and turn to the left, rad/s
-        self._sum, self._begin_m, self._forward = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros((count, 2))
-        self._yaw, self._start_yaw, self._turned = np.zeros(count), np.zeros(count), np.zeros(count)
+        self._sum, self._begin_m = np.zeros((count, 2)), np.zeros((count, 2))
+        self._yaw, self._heading, self._turned = np.zeros(count), np.zeros(count), np.zeros(count)
         self.begin(np.ones(count, bool))
 
     @classmethod
@@ -63,7 +63,8 @@ class Commands:
         self._draw(which)
         self._sum[which], self._turned[which] = 0.0, 0.0
         self._begin_m[which] = self._robots.com_m[which, :2]
-        self._yaw[which] = self._start_yaw[which] = self._robots.attitude_rad[which, 2]
+        self._yaw[which] = self._robots.attitude_rad[which, 2]
+        self._heading[which] = 0.0
 
     def _draw(self, which):
         count, s = int(which.sum()), self._settings
@@ -82,13 +83,11 @@ class Commands:
         yaw = self._robots.attitude_rad[:, 2].astype(np.float64)
         self._turned += (yaw - self._yaw + np.pi) % (2.0 * np.pi) - np.pi
         self._yaw = yaw
-        half = ticks % self._second == self._second // 2
-        heading = yaw - self._start_yaw
-        self._forward[half] = np.stack([np.cos(heading), np.sin(heading)], axis=1)[half]
         rewards, over = np.zeros(len(ticks)), (ticks % self._second == 0) & (ticks > 0)
         if over.any():
             rewards[over] = self._obeyed(over)
             self._begin_m[over] = self._robots.com_m[over, :2]
+            self._heading[over] += self._turned[over]
             self._sum[over], self._turned[over] = 0.0, 0.0
         renewed = (ticks % self._stretch == 0) & (ticks > 0)
         if renewed.any():
@@ -99,7 +98,8 @@ class Commands:
         """How well the second that is over obeyed, 0 … 1; 0 is what standing still is worth where there was something to do."""
         told = self._sum[over] / self._second
         v0, w0 = self._settings["tracking_speed_m_s"], self._settings["tracking_turn_rad_s"]
-        wanted_m = told[:, :1] * self._forward[over]
+        heading = self._heading[over] + 0.5 * self._turned[over]  # in the mean of the second's begin and end
+        wanted_m = told[:, :1] * np.stack([np.cos(heading), np.sin(heading)], axis=1)
         went_m = self._robots.com_m[over, :2] - self._begin_m[over]
 
         def mean(way_m, turn_rad):

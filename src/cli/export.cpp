@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/messages.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/exporting/export_file.hpp"
@@ -35,6 +36,9 @@ void check_options(const ExportOptions& options) {
 }
 
 std::string mjcf_of(const experiment::Champion& champion) {
+  if (champion.problem.ground.has_field())
+    print_message("amble: the model's ground is a plane: ground.kind = \"" + champion.problem.ground.kind +
+                  "\" is left out\n");
   return morphology::written_mjcf_start +
          morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
 }

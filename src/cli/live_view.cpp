@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <thread>
@@ -21,13 +22,14 @@ std::string name_of(const std::filesystem::path& folder, const watch::Summary& r
   return io::printable((run.id == "." ? folder : folder / run.id).string());
 }
 
-/// What is said of a run that came into a stage.
-std::string stage_text(const watch::Summary& run) {
+/// What is said of a run in `folder` that came into a stage.
+std::string stage_text(const watch::Summary& run, const std::filesystem::path& folder) {
   switch (run.stage) {
     case Stage::running:
       return fmt::format("goes on, generation {} of {}", run.done, run.generations);
     case Stage::stopped:
-      return fmt::format("stopped at generation {} of {}", run.done, run.generations);
+      return fmt::format("stopped at generation {} of {}; to continue, run: amble resume {}", run.done,
+                         run.generations, io::shell_word((folder / run.id).lexically_normal().string()));
     case Stage::ended:
       return fmt::format("has ended, all {} generations are done", run.generations);
     case Stage::gone:
@@ -46,7 +48,8 @@ ExitCode make_live_view(const std::filesystem::path& folder, const LiveOptions& 
   server.begin(folder);
   if (server.watcher().summaries().empty())
     print_message(fmt::format(
-        "{}: no run is here yet; the page waits for one. A study that has ended: amble report {}\n",
+        "{}: no run is here yet, or up to three folders below; the page waits for one. A study that has "
+        "ended: amble report {}\n",
         io::printable(folder.string()), io::shell_word(folder.string())));
   std::map<std::string, Stage> told;
   bool gone = false;
@@ -55,7 +58,7 @@ ExitCode make_live_view(const std::filesystem::path& folder, const LiveOptions& 
       const auto [known, is_new] = told.try_emplace(run.id, run.stage);
       if (is_new ? run.id != "." : known->second == run.stage) continue;
       known->second = run.stage;
-      print_message(fmt::format("{}: {}\n", name_of(folder, run), stage_text(run)));
+      print_message(fmt::format("{}: {}\n", name_of(folder, run), stage_text(run, folder)));
     }
     if (server.watcher().is_gone() != gone) {
       gone = !gone;

@@ -109,7 +109,11 @@ ExitCode write_switching(const experiment::Repertoire& repertoire, const Reperto
   experiment::refuse_among_champions(*options.out);
   io::check_output(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
   experiment::check_can_switch(repertoire.config);
-  const int trials = std::max(1, options.retest.value_or(experiment::usual_gait_trials));
+  const int trials = options.retest.value_or(experiment::usual_gait_trials);
+  if (trials == 0)
+    fail(
+        ExitCode::bad_input,
+        "--retest 0: gaits are picked by what elites do in new trials; expected at least 1 with --switching");
   const auto corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal());
   if (!corrected) return ExitCode::interrupted;
   const auto gaits = experiment::pick_gaits(repertoire, *corrected, *options.gaits);

@@ -105,10 +105,14 @@ void add_module_senses(const robot::RobotSpec& robot, const std::vector<std::str
   link_senses(has_sides, made);
 }
 
+bool has_constant_bias(const substrate::PropertySettings& item) {
+  return item.property == bias_property && item.output.empty();
+}
+
 void evolve_motor_biases(substrate::Settings& made) {
   constexpr double most = 3.0;
   for (substrate::PropertySettings& item : made.properties)
-    if (item.property == bias_property && item.output.empty()) {
+    if (has_constant_bias(item)) {
       item.output = bias_property;
       item.low = -most;
       item.high = most;
@@ -116,8 +120,12 @@ void evolve_motor_biases(substrate::Settings& made) {
     }
 }
 
+bool is_leg_neuron(const substrate::NodeSettings& node) {
+  return node.group == leg_neurons;
+}
+
 void remove_neurons(substrate::Settings& made) {
-  constexpr std::string_view neurons = "hidden", feet = "touch";
+  constexpr std::string_view neurons = leg_neurons, feet = "touch";
   const auto is_gone = [&](std::string_view group) { return group == neurons || group == feet; };
   std::erase_if(made.nodes, [&](const substrate::NodeSettings& node) { return is_gone(node.group); });
   std::erase_if(made.properties, [&](const substrate::PropertySettings& item) { return is_gone(item.of); });

@@ -111,17 +111,27 @@ void check_without_lists(const substrate::Settings& settings) {
   }
 }
 
-/// Refuses senses of modules in a listed substrate that has no nodes for them.
-void check_module_senses(const ControllerSettings& settings) {
+/// Refuses what settings of the kind change in a substrate that is made from the robot, if a listed one is
+/// not so.
+void check_listed(const ControllerSettings& settings) {
+  const substrate::Settings& listed = settings.substrate;
+  const auto refuse = [](const std::string& key, const std::string& instead) {
+    fail_setting(
+        {key},
+        "{}: the nodes of controller.substrate are listed; expected {}, or controller.substrate = \"auto\"",
+        key, instead);
+  };
+  if (settings.kind == "ctrnn" && settings.ctrnn.motor_bias == MotorBias::evolved &&
+      std::ranges::any_of(listed.properties, has_constant_bias))
+    refuse("controller.ctrnn.motor_bias", "the property bias with an output there");
+  if (settings.kind == "mixed" && settings.mixed.neurons == LegNeurons::none &&
+      std::ranges::any_of(listed.nodes, is_leg_neuron))
+    refuse("controller.mixed.neurons", "nodes without neurons there");
   if (settings.kind != "ctrnn" || settings.ctrnn.sensors.empty()) return;
-  const bool made = std::ranges::any_of(settings.substrate.nodes, [](const substrate::NodeSettings& node) {
+  const bool made = std::ranges::any_of(listed.nodes, [](const substrate::NodeSettings& node) {
     return node.group == sense_group || node.group == turn_group;
   });
-  if (!made)
-    fail_setting(
-        {"controller.ctrnn.sensors"},
-        "controller.ctrnn.sensors: the nodes of controller.substrate are listed; expected nodes with "
-        "sensors there, or controller.substrate = \"auto\"");
+  if (!made) refuse("controller.ctrnn.sensors", "nodes with sensors there");
 }
 
 /// What settings of the kind change in the substrate that is made from the robot.
@@ -192,7 +202,7 @@ void register_controller(ControllerKind kind) {
 substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot) {
   substrate::Settings substrate = settings.substrate;
   if (substrate.layout == substrate::LayoutSource::listed) {
-    check_module_senses(settings);
+    check_listed(settings);
     return substrate;
   }
   check_without_lists(substrate);

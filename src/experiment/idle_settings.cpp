@@ -100,7 +100,12 @@ bool is_plane(const Config& config) {
   return !config.ground.has_field();
 }
 
-constexpr std::array<IdleRule, 54> idle_rules = {
+/// Uneven ground that is the same in all trials.
+bool has_one_ground(const Config& config) {
+  return config.ground.has_field() && config.ground.concentric() && config.ground.start_place_m == 0.0;
+}
+
+constexpr std::array<IdleRule, 57> idle_rules = {
     {{"population.size", "", is_map_search,
       "search.kind is \"map-elites\", whose rounds have search.map_elites.batch"},
      {"search.map_elites.challenger_share", "",
@@ -162,6 +167,8 @@ constexpr std::array<IdleRule, 54> idle_rules = {
      {"ground.start_radius_m", "", is_plane, "ground.kind is \"plane\""},
      {"ground.seed", "", is_plane, "ground.kind is \"plane\""},
      {"ground.vary", "", is_plane, "ground.kind is \"plane\""},
+     {"ground.seed", "", has_one_ground, "stairs and hurdles are always at the same places"},
+     {"ground.vary", "", has_one_ground, "stairs and hurdles are always at the same places"},
      {"ground.grow_generations", "", is_plane, "ground.kind is \"plane\""},
      {"cppn.passes", "", [](const Config& config) { return !config.cppn.recurrent; },
       "cppn.recurrent is false"},
@@ -169,7 +176,8 @@ constexpr std::array<IdleRule, 54> idle_rules = {
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape_by", "",
       [](const Config& config) {
-        return !senses_nothing(config) && config.controller.supg.modulation.shape == 0.0;
+        return !senses_nothing(config) && config.controller.kind != "mixed" &&
+               config.controller.supg.modulation.shape == 0.0;
       },
       "controller.supg.modulation.shape is 0"},
      {"controller.supg.contact.", "",
@@ -201,6 +209,9 @@ constexpr std::array<IdleRule, 54> idle_rules = {
      {"controller.supg.modulation.rate", "",
       [](const Config& config) { return config.controller.kind == "mixed"; },
       "controller.kind is \"mixed\", whose links have the rate"},
+     {"controller.supg.modulation.shape", "",
+      [](const Config& config) { return config.controller.kind == "mixed"; },
+      "controller.kind is \"mixed\", whose patterns are not changed"},
      {"controller.supg.modulation.reset", "", has_no_trigger, "controller.supg.trigger is \"none\""},
      {"controller.supg.modulation.refractory_ticks", "", has_no_trigger,
       "controller.supg.trigger is \"none\""},

@@ -86,6 +86,7 @@ Meter::Meter(const Body& body, double frame_s, const Settings& settings)
       travel_(body.com_start_m, start_of(body), frame_s),
       raw_touch_(body.legs.size()),
       raw_touchdowns_(body.legs.size()),
+      late_raw_touchdowns_(body.legs.size()),
       filters_(body.legs.size(), ContactFilter(static_cast<int>(frames_in(settings.debounce_s, frame_s)))),
       com_m_(body.com_start_m),
       tracker_(body.legs.size(), frames_in(settings.longest_stride_s, frame_s)),
@@ -95,13 +96,15 @@ Meter::Meter(const Body& body, double frame_s, const Settings& settings)
 
 void Meter::add(const Frame& frame) {
   AMBLE_CHECK(frame.touch.size() == body_.legs.size(), "one touch per leg");
-  const bool first = travel_.frames() == 0;
+  const bool first = travel_.frames() == 0, late = travel_.frames() >= transient_frames_;
   travel_.add(frame.com_m, frame.angle_rad, frame.torque_nm);
   pending_com_m_.push_back(frame.com_m);
   std::vector<bool> settled;
   for (std::size_t leg = 0; leg < filters_.size(); ++leg) {
     const bool touch = frame.touch[leg] > 0.5f;
-    raw_touchdowns_[leg] += touch && !raw_touch_[leg] && !first;
+    const bool lands = touch && !raw_touch_[leg] && !first;
+    raw_touchdowns_[leg] += lands;
+    late_raw_touchdowns_[leg] += lands && late;
     raw_touch_[leg] = touch;
     if (const auto value = filters_[leg].add(touch)) settled.push_back(*value);
   }

@@ -86,7 +86,7 @@ class Meter {
 
   TravelMeter travel_;
   std::vector<bool> raw_touch_;
-  std::vector<std::int64_t> raw_touchdowns_;
+  std::vector<std::int64_t> raw_touchdowns_, late_raw_touchdowns_;
 
   // The members below lag behind by the latency of the contact filters.
   std::vector<ContactFilter> filters_;

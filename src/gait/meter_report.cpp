@@ -116,6 +116,7 @@ LegGait Meter::leg_gait(std::size_t leg, int reference) const {
   if (total_.frames > 0)
     gait.contact_share = static_cast<double>(sums.contact_frames) / static_cast<double>(total_.frames);
   gait.raw_touchdowns = raw_touchdowns_[leg];
+  gait.late_raw_touchdowns = late_raw_touchdowns_[leg];
   gait.touchdowns = sums.touchdowns;
   gait.strides = sums.strides;
   if (sums.strides > 0) {

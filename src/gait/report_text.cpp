@@ -61,10 +61,13 @@ std::string cost(const Report& report) {
 }
 
 void print_legs(const Report& report, Text text) {
-  // Why a foot makes no strides.
-  const auto note = [](const LegGait& leg) {
-    const bool down = leg.contact_share > 0.5, chatters = leg.raw_touchdowns > 1;
+  // Why a foot makes no strides. Where all counts, the first landing is that of the robot that was put down.
+  const bool nothing_counts = report.seconds <= report.settings.transient_s;
+  const std::int64_t first_landing = report.settings.transient_s > 0.0 ? 0 : 1;
+  const auto note = [&](const LegGait& leg) {
+    const bool down = leg.contact_share > 0.5, chatters = leg.late_raw_touchdowns > first_landing;
     if (leg.touchdowns > 0) return "";
+    if (nothing_counts) return "  all of it is --transient";
     if (chatters) return down ? "  lifts for less than --debounce" : "  touches for less than --debounce";
     return down ? "  never lifts" : "  never lands";
   };

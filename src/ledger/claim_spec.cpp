@@ -122,7 +122,7 @@ void check_count(const ClaimSpec& claim, const ClaimCheck& check, bool is_record
   const bool bounded = claim.at_least > -unbounded || claim.at_most < unbounded;
   check.that(bounded != (claim.runs > 0), "at_least",
              "either bounds (at_least, at_most) or a published count (successes, runs)");
-  check.that(claim.successes <= claim.runs || claim.runs == 0, "successes", "at most 'runs'");
+  check.that(claim.successes <= claim.runs, "successes", "at most 'runs', the number of runs that it is of");
   for (const auto& [key, bound] : {std::pair{"at_least", claim.at_least}, {"at_most", claim.at_most}})
     check.that(is_recorded || !std::isfinite(bound) || bound == std::floor(bound), key,
                fmt::format("a whole number of runs for a count, not {}", bound));

@@ -111,7 +111,7 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
 void DescriptorSettings::describe(io::SettingsVisitor& visitor) {
   visitor.text("quantity", quantity, {"one of the quantities of docs/SCORES.md"});
   visitor.text("leg", leg, {"of which leg, by its name in the robot file; \"\": the mean over all legs"});
-  visitor.number("least", least, {-1e9, 1e9}, {"lower end of its range; less counts as this"});
+  visitor.number("least", least, {-1e9, 1e9}, {"lower end of its range; less falls into the first bin"});
   visitor.number("most", most, {-1e9, 1e9}, {"upper end of its range"});
   visitor.integer("bins", bins, {1, 1e6}, {"bins of equal width in a grid"});
 }

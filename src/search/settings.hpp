@@ -74,8 +74,8 @@ struct NoveltySettings {
 struct DescriptorSettings {
   std::string quantity = "duty_factor";  ///< name of a row of score::quantities()
   std::string leg;     ///< name of a leg, for a quantity that legs have; empty: the mean over legs
-  double least = 0.0,  ///< lower end of its range, in its unit, −1e9 … 1e9; less counts as this
-      most = 1.0;      ///< upper end, above the lower; more counts as this
+  double least = 0.0,  ///< lower end of its range, in its unit, −1e9 … 1e9; less falls into the first bin
+      most = 1.0;      ///< upper end, above the lower; more falls into the last bin
   int bins = 10;       ///< bins of equal width, 1 … 1e6; without effect unless Archive::grid
 
   /// For axes and tables: "duty_factor FL".

@@ -21,6 +21,7 @@
 #include "amble/io/quoting.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
+#include "amble/score/walking.hpp"
 
 namespace amble::study {
 namespace {
@@ -204,7 +205,8 @@ bool has_timers(const PlannedCondition& condition) {
 }
 
 /// Why runs of a condition never have a measure; empty if they may.
-std::string why_never(const PlannedCondition& condition, std::string_view measure) {
+std::string why_never(const ledger::StudySpec& study, const PlannedCondition& condition,
+                      std::string_view measure) {
   if (ledger::is_of_seam(measure) && !has_timers(condition))
     return fmt::format(
         "the controller of condition '{}' is of kind {}, which has no cycles that targets could jump between",
@@ -212,6 +214,13 @@ std::string why_never(const PlannedCondition& condition, std::string_view measur
   if (ledger::is_of_map(measure) && condition.config.search.kind != "map-elites")
     return fmt::format("the search of condition '{}' is of kind {}, which fills no map", condition.spec.name,
                        condition.config.search.kind);
+  const ledger::TestSpec* const test = ledger::test_of(study, measure);
+  if (test == nullptr) return {};
+  if (measure.ends_with(".kept") && !condition.config.score.is_distance())
+    return fmt::format("the score of condition '{}' is not the distance", condition.spec.name);
+  if (const double stop_s = score::StandingRule().window_s;
+      measure.ends_with(".moving_s") && test->seconds < stop_s)
+    return fmt::format("who moves is known after {:g} s, and the test is {:g} s long", stop_s, test->seconds);
   return {};
 }
 
@@ -224,7 +233,7 @@ void check_measures(const Plan& plan) {
       if (name != claim.condition && name != claim.against && name != claim.threshold_condition) continue;
       for (const auto& [which, measure] :
            {std::pair("measure", claim.measure), std::pair("base_measure", claim.base_measure)}) {
-        const std::string never = why_never(condition, measure);
+        const std::string never = why_never(plan.study, condition, measure);
         const std::string key = fmt::format("claims[{}].{}", i, which);
         if (!never.empty())
           throw plan.study.error_at(

@@ -112,6 +112,22 @@ TEST(Session, AnotherBitIsFoundAtItsStep) {
             30);
 }
 
+TEST(Session, WhatBeganLaterGoesOnToCountWhateverTheListsOrder) {
+  const auto part = [](const std::string& kind, double from_s) {
+    return io::Json::parse(damage_json(kind, "", "front_left_hip", from_s)).at("parts").at(0);
+  };
+  const io::Json locked = part("locked", 0.1), weak = part("weak", 0.5);
+  Session in_time(tests::champion_text()), turned(tests::champion_text());
+  in_time.set_damage(io::Json{{"parts", {locked, weak}}}.dump());
+  turned.set_damage(io::Json{{"parts", {weak, locked}}}.dump());
+  for (Session* const session : {&in_time, &turned}) {
+    session->step(100);
+    session->lift(0.1);
+    session->step(100);
+  }
+  EXPECT_EQ(in_time.state(), turned.state());
+}
+
 TEST(Session, GoesOnWhereItIsWhenGroundOrBodyChange) {
   Session session(tests::champion_text());
   session.step(300);

@@ -294,6 +294,21 @@ TEST(AutomaticCtrnn, WithoutSensesIsAsItWasAndRefusesThoseThatItCannotGive) {
   EXPECT_NE(refusal(listed).find("the nodes of controller.substrate are listed"), std::string::npos);
 }
 
+TEST(AutomaticSubstrate, WhatASettingChangesInItIsRefusedWhereAListedOneIsNotSo) {
+  const auto robot = tests::legged_robot(2);
+  ControllerSettings ctrnn = automatic("ctrnn"), mixed = automatic("mixed");
+  ctrnn.ctrnn.motor_bias = MotorBias::evolved;
+  mixed.mixed.neurons = LegNeurons::none;
+  for (ControllerSettings* const settings : {&ctrnn, &mixed}) {
+    ControllerSettings made = *settings, other = *settings;
+    made.substrate = substrate_of(made, robot);
+    EXPECT_NO_THROW(substrate_of(made, robot)) << "as champions have it";
+    other.substrate = settings == &ctrnn ? automatic_ctrnn(robot) : automatic_mixed(robot);
+    other.substrate.layout = substrate::LayoutSource::listed;
+    EXPECT_THROW(substrate_of(other, robot), SettingError) << settings->kind;
+  }
+}
+
 TEST(AutomaticSubstrate, SuitsRobotsOfOneToFiveLegPairsWithAnyJointsHeld) {
   // Whatever is held: the layout is accepted, which refuses equal places, groups without nodes, links that
   // link nothing, and outputs that nothing reads.

@@ -12,6 +12,22 @@
 namespace amble::experiment {
 namespace {
 
+TEST(IdleSettings, TheSeedOfAGroundThatIsAlwaysTheSameIsNamed) {
+  const auto idle = [](const std::string& kind, const std::string& place) {
+    const std::vector<std::string> assignments{"ground.height_m=0.05", "ground.kind=" + kind,
+                                               "ground.start_place_m=" + place, "ground.seed=7",
+                                               "ground.vary=generations"};
+    const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};
+    return idle_assignments(load_config(AMBLE_SOURCE_DIR "/configs/quick/quadruped.toml", overrides),
+                            assignments)
+        .size();
+  };
+  EXPECT_EQ(idle("hurdles", "0"), 2u);
+  EXPECT_EQ(idle("stairs", "0"), 2u);
+  EXPECT_EQ(idle("hurdles", "2"), 0u);
+  EXPECT_EQ(idle("rough", "0"), 0u);
+}
+
 TEST(IdleSettings, AssignmentsThatAConfigDoesNotUseAreNamed) {
   const auto idle = [](const std::string& preset, const std::vector<std::string>& assignments) {
     const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};

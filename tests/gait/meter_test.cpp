@@ -178,6 +178,21 @@ TEST(GaitMeter, AFootWhoseTouchesAreTooShortToCountIsSaidToTouch) {
   EXPECT_EQ(table.find("never"), std::string::npos) << table;
 }
 
+TEST(GaitMeter, AFootThatLandsInTheTransientAloneIsNotSaidToTouchTooBriefly) {
+  Feeder lands_early, ends_early;
+  for (int k = 0; k < 1000; ++k)
+    lands_early.add(
+        {k % 60 < 30 && k < 180 ? 1.0f : 0.0f, k % 60 < 30 || k >= 180 ? 1.0f : 0.0f, 1.0f, 1.0f});
+  std::string table = report_table(lands_early.finish());
+  EXPECT_NE(table.find("never lands"), std::string::npos) << table;
+  EXPECT_NE(table.find("never lifts"), std::string::npos) << table;
+  EXPECT_EQ(table.find("--debounce"), std::string::npos) << table;
+  for (int k = 0; k < 150; ++k) ends_early.add({1.0f, 1.0f, 1.0f, k % 60 < 30 ? 1.0f : 0.0f});
+  table = report_table(ends_early.finish());
+  EXPECT_NE(table.find("all of it is --transient"), std::string::npos) << table;
+  EXPECT_EQ(table.find("never"), std::string::npos) << table;
+}
+
 TEST(GaitMeter, MeasuresHowAPhaseDrifts) {
   // The left fore foot takes strides of 1.01 s beside others of 1 s: it falls behind by 0.01 of a stride
   // in 1.01 s, 0.594 per minute. The first window lasts until the left hind foot ends its fourth stride in

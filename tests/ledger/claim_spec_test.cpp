@@ -130,7 +130,8 @@ TEST(ClaimSpec, OfACountHasOneThresholdAndEitherBoundsOrAPublishedCount) {
       {"kind = 'count'\nthreshold = 1.0\nat_most = 2", ""},
       {"kind = 'count'\nthreshold_condition = 'b'\nruns = 5\nsuccesses = 5", ""},
       {"kind = 'count'\nthreshold = 1.0\nruns = 1", ""},
-      {"kind = 'count'\nthreshold = 1.0\nat_least = 2\nsuccesses = 3", ""},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 2\nsuccesses = 3",
+       "'claims[0].successes': expected at most 'runs', the number of runs that it is of"},
       {"kind = 'count'\nat_least = 2", threshold},
       {"kind = 'count'\nthreshold = 1.0\nthreshold_condition = 'b'\nat_least = 2", threshold},
       {"kind = 'count'\nthreshold_condition = 'c'\nat_least = 2",
@@ -139,7 +140,7 @@ TEST(ClaimSpec, OfACountHasOneThresholdAndEitherBoundsOrAPublishedCount) {
       {"kind = 'count'\nthreshold = 1.0\nat_least = 2\nruns = 5", bounds},
       {"kind = 'count'\nthreshold = 1.0\nat_most = 2\nruns = 5", bounds},
       {"kind = 'count'\nthreshold = 1.0\nruns = 5\nsuccesses = 6",
-       "'claims[0].successes': expected at most 'runs'"},
+       "'claims[0].successes': expected at most 'runs', the number of runs that it is of"},
   });
 }
 

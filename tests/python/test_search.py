@@ -46,6 +46,20 @@ def test_map_elites_by_ask_and_tell_keeps_what_evolve_keeps(tmp_path):
             assert value == table[name][generation], name
 
 
+def test_a_round_is_told_once():
+    search = amble.Search(amble.load_config(SOURCE / "configs/authors/supg-objective.toml", SMALL), 5)
+    with pytest.raises(ValueError, match="tell: round 0 has not been asked for"):
+        search.tell([1.0] * SMALL["population.size"])
+    worth = [1.0] * len(search.ask())
+    search.tell(worth)
+    with pytest.raises(ValueError, match="tell: round 1 has not been asked for"):
+        search.tell(worth)
+    search.ask()
+    search = pickle.loads(pickle.dumps(search))
+    search.tell(worth)
+    assert search.round == 2
+
+
 def test_who_is_not_viable_gets_no_cell_of_a_map():
     config = amble.load_config(SOURCE / "configs/repertoire/quadruped.toml",
                                {"trial.duration_s": 2.0, "search.map_elites.batch": 24, "search.map_elites.initial": 24,
@@ -59,6 +73,7 @@ def test_who_is_not_viable_gets_no_cell_of_a_map():
         search.tell(objective, behaviour, viable=evaluation.viable & some)
         filled.append(search.metrics)
     assert filled[0] != filled[1]
+    search.ask()
     with pytest.raises(TypeError, match="viable"):
         search.tell(objective, behaviour, viable=objective)
     with pytest.raises(TypeError, match="has its behaviour and viable already"):
@@ -174,13 +189,15 @@ def test_two_threads_share_a_search_and_a_problem(config):
     search, problem = amble.Search(config, 3), amble.Problem(config, 3)
     genomes = search.ask()
     expected = amble.evaluate(problem, genomes)[0].tolist()
-    failures = []
+    failures, round_ = [], threading.Lock()
 
     def work():
         try:
             for _ in range(5):
                 assert amble.evaluate(problem, genomes, jobs=2)[0].tolist() == expected
-                search.tell(expected)
+                with round_:
+                    assert len(search.ask()) == len(expected)
+                    search.tell(expected)
         except Exception as error:
             failures.append(error)
 

@@ -305,6 +305,15 @@ TEST(Plan, RefusesAClaimOnWhatRunsOfAConditionNeverHave) {
                 testing::HasSubstr("the search of condition 'jumps' is of kind objective, which "
                                    "fills no map"));
   }
+  study.claims[0].measure = "walk.moving_s";
+  study.tests[0].seconds = 9.0;
+  EXPECT_THROW(make_plan(study, "out"), UserError);
+  study.tests[0].seconds = 10.0;
+  EXPECT_NO_THROW(make_plan(study, "out"));
+  study.claims[0].measure = "walk.kept";
+  EXPECT_NO_THROW(make_plan(study, "out"));
+  study.settings.emplace_back("score.terms=[{quantity='uprightness'}]");
+  EXPECT_THROW(make_plan(study, "out"), UserError);
 }
 
 TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {

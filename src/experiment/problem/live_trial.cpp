@@ -1,5 +1,6 @@
 #include "amble/experiment/problem/live_trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -79,8 +80,9 @@ trial::Command LiveTrial::told() const {
 }
 
 void LiveTrial::move_to(Problem next, double lift_m) {
-  // The engine counts from its own first step.
+  // The engine counts from its own first step. What begins later goes on to count before what began earlier.
   Problem from_now_on = next;
+  std::ranges::stable_sort(from_now_on.damage.parts, {}, &damage::Part::from_s);
   for (damage::Part& part : from_now_on.damage.parts)
     part.from_s = std::max(0.0, part.from_s - steps_ * next.trial.timestep_s);
   auto engine = from_now_on.make_engine();

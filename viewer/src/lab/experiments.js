@@ -45,7 +45,7 @@ const COMPARISONS = [
   { id: "noise", title: "One walk is not a gait", question: "Without any noise each walk is exactly the same every time. Is the best then a good walker, or a lucky one?",
     steps: [{ name: "No noise", set: { noise: "none" } }, { name: "A little noise", set: { noise: "little" } }, { name: "Pushes, too", set: { noise: "strong" } }],
     look: "Compare “best so far” with “best, typically”. Without noise, typically stands for starts that differ by a thousandth of a radian; with noise, for other noise of the same kind. Who repeats what it did once?" },
-  { id: "rough", title: "Hurdles", question: "Bars lie across the way, a fifth of a leg high, in every generation elsewhere. Does who grew up among them walk better there than who grew up on flat ground?",
+  { id: "rough", title: "Hurdles", question: "Bars lie across the way, a fifth of a leg high, in rings around the start. Does who grew up among them walk better there than who grew up on flat ground?",
     steps: [{ name: "Flat", set: { roughness: 0.2 } }, { name: "Hurdles", set: { ground: "hurdles", roughness: 0.2 } }],
     look: "Look at the feet from the side. When both runs are over, choose the other ground, and let each walk there: who minds more, the walker of the flat ground or that of the hurdles?" },
   { id: "map", title: "Not one winner, but many", question: "What if the best of each kind is kept: those that slide, those that hop, tall ones, low ones?",
