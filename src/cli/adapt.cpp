@@ -1,4 +1,12 @@
 #include "amble/experiment/adapt.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/given_damage.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/presentation/adaptation_page.hpp"
 
 #include <fmt/format.h>
 
@@ -67,9 +75,9 @@ ExitCode run_adapt(AdaptOptions options) {
   if (is_page && repertoire.config.search.map_elites.archive != search::Archive::grid)
     fail(ExitCode::bad_input, "--out: a map of centroids has no picture: expected FILE.json");
   if (is_page)
-    io::check_output(*options.out, "<!DOCTYPE html>", "a page");
+    check_output(*options.out, "<!DOCTYPE html>", "a page");
   else if (options.out)
-    io::check_output(*options.out, "{\n  \"format\": \"amble-adaptation\"", "an adaptation");
+    check_output(*options.out, "{\n  \"format\": \"amble-adaptation\"", "an adaptation");
   const auto adaptation = experiment::adapt(repertoire, options.settings, options.jobs, stop_signal());
   if (!adaptation) return ExitCode::interrupted;
   if (is_page) {

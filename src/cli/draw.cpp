@@ -30,7 +30,7 @@ void refuse_unless_ours(const DrawOptions& options) {
     const fs::path kind = options.out->extension();
     if (kind != ".svg" && kind != ".dot")
       fail(ExitCode::bad_input, "--out {}: expected a name that ends in .svg or .dot", options.out->string());
-    io::check_output(*options.out, kind == ".svg" ? "<svg" : "digraph cppn {\n  rankdir=LR;", "a drawing");
+    check_output(*options.out, kind == ".svg" ? "<svg" : "digraph cppn {\n  rankdir=LR;", "a drawing");
   }
   if (options.patterns) check_drawing("--patterns", *options.patterns);
   check_distinct({{"--out", options.out.value_or("")}, {"--patterns", options.patterns.value_or("")}});

@@ -9,6 +9,7 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/exporting/export_file.hpp"
@@ -47,7 +48,7 @@ ExitCode run_export(const ExportOptions& options) {
   check_options(options);
   const fs::path path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
-  if (options.out) experiment::refuse_among_champions(*options.out);
+  if (options.out) prepare_output(*options.out);
   if (options.steering) exporting::steer_by_hand(champion, *options.steering, "--steering");
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
@@ -59,8 +60,8 @@ ExitCode run_export(const ExportOptions& options) {
   }
   const bool json = options.format == "json";
   if (options.out)
-    io::check_output(*options.out, json ? exporting::export_json_start : morphology::written_mjcf_start,
-                     json ? "a JSON document" : "an MJCF model");
+    check_output(*options.out, json ? exporting::export_json_start : morphology::written_mjcf_start,
+                 json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (stop_signal()) return ExitCode::interrupted;
   if (options.out)

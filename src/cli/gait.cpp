@@ -7,6 +7,7 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/recorded_gait.hpp"
@@ -57,8 +58,7 @@ std::optional<gait::Report> measure(const GaitOptions& options) {
 
 ExitCode run_gait(const GaitOptions& options) {
   options.settings.validate();
-  if (options.json && *options.json != "-")
-    io::check_output(*options.json, gait::report_json_start, "a gait");
+  if (options.json && *options.json != "-") check_output(*options.json, gait::report_json_start, "a gait");
   const auto report = measure(options);
   if (!report) fail(ExitCode::interrupted, "stopped before the end of the trial");
   if (options.json == "-") {

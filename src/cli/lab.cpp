@@ -6,6 +6,7 @@
 
 #include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/io/file.hpp"
 #include "amble/page/lab_page.hpp"
 #include "amble/presentation/lab_robots.hpp"
@@ -22,7 +23,7 @@ struct LabOptions {
 };
 
 ExitCode make_lab(const LabOptions& options) {
-  io::check_output(options.out, "<!DOCTYPE html>", "a page");
+  check_output(options.out, "<!DOCTYPE html>", "a page");
   const auto data = data_folder();
   if (!data)
     fail(ExitCode::io,

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/run_paths.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/text.hpp"
 
@@ -17,8 +18,19 @@ fs::path resolved(const fs::path& path) {
   return error ? fs::absolute(path).lexically_normal() : found;
 }
 
+void prepare_output(const fs::path& path) {
+  if (path.empty()) fail(ExitCode::bad_input, "the name of an output is empty; expected that of a file");
+  experiment::refuse_among_champions(path);
+  io::keep_stdout_for(path);
+}
+
+void check_output(const fs::path& path, std::string_view beginning, std::string_view what) {
+  if (!path.empty()) io::check_output(path, beginning, what);
+  prepare_output(path);
+}
+
 void check_drawing(std::string_view option, const fs::path& path) {
-  io::check_output(path, "<svg", "a drawing");
+  check_output(path, "<svg", "a drawing");
   if (path.extension() != ".svg")
     fail(ExitCode::bad_input, "{} {}: expected a name that ends in .svg", option,
          io::printable(path.string()));

@@ -1,4 +1,15 @@
 #include "amble/experiment/repertoire.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/core/index.hpp"
+#include "amble/experiment/corrected_map.hpp"
+#include "amble/experiment/switching_champion.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
+#include "amble/presentation/map_page.hpp"
 
 #include <fmt/format.h>
 
@@ -93,8 +104,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
                      const std::optional<fs::path>& out) {
   if (!out || out->extension() != ".json")
     fail(ExitCode::bad_input, "--cell {}: expected -o FILE.json", cell);
-  experiment::refuse_among_champions(*out);
-  io::check_output(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  check_output(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
   const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
   if (!champion) return ExitCode::interrupted;
   io::write_output(*out, experiment::champion_text(*champion));
@@ -106,8 +116,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
 ExitCode write_switching(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
   if (!options.out || options.out->extension() != ".json")
     fail(ExitCode::bad_input, "--switching {}: expected -o FILE.json", *options.gaits);
-  experiment::refuse_among_champions(*options.out);
-  io::check_output(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  check_output(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
   experiment::check_can_switch(repertoire.config);
   const int trials = options.retest.value_or(experiment::usual_gait_trials);
   if (trials == 0)
@@ -131,6 +140,7 @@ ExitCode write_switching(const experiment::Repertoire& repertoire, const Reperto
 }
 
 ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
+  prepare_output(*options.out);
   const presentation::MapFileOptions how{
       .trials = options.retest, .walkers = to_index(options.walkers), .jobs = options.jobs};
   if (!presentation::write_map_file(repertoire, options.run, *options.out, how, stop_signal()))

@@ -82,7 +82,7 @@ void prepare(const std::vector<Output>& files) {
       fail(ExitCode::bad_input, "{} would be written twice: name different files", printable(file.path));
     if (fs::is_directory(file.path))
       fail(ExitCode::bad_input, "{} is a folder: name another place", printable(file.path));
-    io::check_output(file.path, file.beginning, file.what);
+    check_output(file.path, file.beginning, file.what);
   }
   // A file in the place of a folder that another output needs.
   for (const Output& file : files)

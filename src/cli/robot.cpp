@@ -10,6 +10,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/error.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/robot_folder.hpp"
 #include "amble/figures/robot_figure.hpp"
@@ -17,6 +18,7 @@
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/morphology/reading_notes.hpp"
+#include "amble/morphology/side_file.hpp"
 #include "amble/robot/doubts.hpp"
 #include "amble/robot/summary.hpp"
 
@@ -24,6 +26,15 @@ namespace amble::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Before anything is computed: the model of a robot is not written over the one that it is read from.
+void check_model_output(const fs::path& robot_file, const fs::path& mjcf) {
+  check_output(mjcf, morphology::written_mjcf_start, "an MJCF model");
+  if (robot_file.extension() == ".toml" &&
+      resolved(mjcf) == resolved(morphology::read_side_file(robot_file).model))
+    fail(ExitCode::bad_input, "--mjcf {}: {} is made from it; expected another file", mjcf.string(),
+         robot_file.string());
+}
 
 ExitCode init_robot(const fs::path& model, const fs::path& folder) {
   const auto written = experiment::write_robot_folder(model, folder, preset_of_robots(), stop_signal());
@@ -58,8 +69,7 @@ void add_robot(CLI::App& app, Action& action) {
     if (options->file.empty() && options->model.empty()) throw CLI::RequiredError("FILE or --init MODEL");
     action = [options] {
       if (!options->model.empty()) return init_robot(options->model, options->folder);
-      if (!options->mjcf.empty())
-        io::check_output(options->mjcf, morphology::written_mjcf_start, "an MJCF model");
+      if (!options->mjcf.empty()) check_model_output(options->file, options->mjcf);
       if (!options->drawing.empty()) check_drawing("--draw", options->drawing);
       check_distinct({{"--mjcf", options->mjcf}, {"--draw", options->drawing}});
       morphology::ReadingNotes notes;

@@ -60,11 +60,11 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
 }
 
 void check_outputs(const StaticView& options) {
-  io::check_output(options.out, "<!DOCTYPE html>", "a page");
+  check_output(options.out, "<!DOCTYPE html>", "a page");
   if (!options.figures) return;
   for (const auto name : page::figure_names) {
     check_distinct({{"--out", options.out}, {"--figures", *options.figures / name}});
-    io::check_output(*options.figures / name, "<svg", "a figure");
+    check_output(*options.figures / name, "<svg", "a figure");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "amble/cli/live_server.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
@@ -191,7 +192,7 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
 
 ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options) {
   namespace fs = std::filesystem;
-  io::check_output(*options.slurm, "#!/bin/bash", "a batch script");
+  check_output(*options.slurm, "#!/bin/bash", "a batch script");
   if (options.shard != "1/1")
     fail(ExitCode::bad_input, "--shard {}: the tasks of --slurm are shards themselves", options.shard);
   const char* const plugins = std::getenv("AMBLE_PLUGINS");

@@ -205,7 +205,7 @@ ExitCode run_trial(const TrialOptions& options) {
                  [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
   if (options.damage) damage_as_in(*options.damage, options.seconds, champion);
   tell(options, champion);
-  if (options.record) io::check_output(*options.record, record::recording_magic, "a recording");
+  if (options.record) check_output(*options.record, record::recording_magic, "a recording");
   std::optional<io::ScratchFile> scratch;
   if (options.draw) prepare_to_draw(options, champion, scratch);
   if (options.record) io::make_folder(options.record->parent_path());

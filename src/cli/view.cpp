@@ -10,6 +10,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/live_view.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/static_view.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/champion.hpp"
@@ -80,7 +81,7 @@ ExitCode make_view(const ViewOptions& options) {
   if (options.with_figures) return make_static(options);
   if (options.figures) fail(ExitCode::bad_input, "--figures: only with --static");
   stop_signal();  // from here on what is in the folder for temporary files is removed
-  io::check_output(options.out, "<!DOCTYPE html>", "a page");
+  check_output(options.out, "<!DOCTYPE html>", "a page");
   if (options.of_all.history && options.inputs.size() > 1)
     fail(ExitCode::bad_input, "--history: expected one run folder, not {} inputs", options.inputs.size());
   presentation::WalkersPage page(options.of_all);

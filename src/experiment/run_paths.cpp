@@ -129,7 +129,9 @@ bool is_run_folder(const fs::path& folder) {
 }
 
 void refuse_among_champions(const fs::path& file) {
-  const fs::path folder = fs::weakly_canonical(fs::absolute(file)).parent_path();
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file), error).parent_path();
+  if (error) return;  // a pipe, as of /dev/stdout
   if (is_run_folder(folder.parent_path()) && RunPaths(folder.parent_path()).champions == folder)
     fail(ExitCode::bad_input, "{}: a run keeps its own champions there: name another folder", file.string());
 }

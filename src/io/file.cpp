@@ -64,6 +64,9 @@ std::string& last_read() {
   return path;
 }
 
+/// Where the standard output was, once outputs have it alone (keep_stdout_for()); else −1.
+int kept_stdout = -1;
+
 /// The open file of this process that a path leads to, as /dev/stdout does, whatever that file is.
 std::optional<int> own_descriptor(std::filesystem::path path) {
   constexpr int most_links = 40;  // as the kernel's
@@ -184,7 +187,7 @@ std::optional<std::filesystem::path> destination_of(const std::filesystem::path&
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
   if (const auto own = own_descriptor(path)) {
     std::fflush(stdout);  // what was printed before comes before
-    fd_ = ::fcntl(*own, F_DUPFD_CLOEXEC, 0);
+    fd_ = ::fcntl(*own == STDOUT_FILENO && kept_stdout >= 0 ? kept_stdout : *own, F_DUPFD_CLOEXEC, 0);
     if (fd_ < 0) fail_to_write(path_, errno);
     return;
   }
@@ -274,6 +277,13 @@ void check_output(const std::filesystem::path& path, std::string_view beginning,
   while (!fs::exists(folder) && folder.has_relative_path()) folder = folder.parent_path();
   if (!fs::is_directory(folder)) fail_to_write(path, ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
+}
+
+void keep_stdout_for(const std::filesystem::path& path) {
+  if (kept_stdout >= 0 || own_descriptor(path) != STDOUT_FILENO) return;
+  std::fflush(stdout);
+  kept_stdout = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  if (kept_stdout < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) fail_to_write(path, errno);
 }
 
 void write_output(const std::filesystem::path& path, std::string_view bytes) {

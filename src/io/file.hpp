@@ -89,6 +89,10 @@ void refuse_to_replace(const std::filesystem::path& path, std::string_view begin
 /// reason" where write_output() would. Changes nothing.
 void check_output(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
 
+/// If the path leads to this process's standard output, as /dev/stdout does: from here on that output has it
+/// alone, and what is printed goes to the standard error.
+void keep_stdout_for(const std::filesystem::path& path);
+
 /// make_folder() and write_file(): how a command writes to where its user says.
 void write_output(const std::filesystem::path& path, std::string_view bytes);
 

@@ -205,6 +205,11 @@ TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
   expect_refusal({"substrate", config, "-o", champion}, ExitCode::bad_input, "is not a drawing");
   expect_refusal({"robot", run_ + "/robot.json", "--mjcf", run_ + "/config.toml"}, ExitCode::bad_input,
                  "is not an MJCF model");
+  for (const std::string name : {"99999.json", "../champions/99999.json"})
+    expect_refusal({"gait", champion, "--json", run_ + "/champions/" + name}, ExitCode::bad_input,
+                   "a run keeps its own champions there");
+  expect_refusal({"trial", champion, "--record", ""}, ExitCode::bad_input,
+                 "the name of an output is empty; expected that of a file");
   fs::create_directories(scratch_ / "figures");
   spill(scratch_ / "figures/path.svg", "a letter to a friend");
   expect_refusal({"page", run_, "-o", scratch_ / "page.html", "--figures", scratch_ / "figures"},

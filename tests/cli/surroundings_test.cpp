@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "amble/core/error.hpp"
@@ -192,6 +193,30 @@ TEST_F(Surroundings, AClosedTerminalStopsARunAsCtrlCDoesButNotUnderNohup) {
   const Said on = shell("rm -r run; nohup " + evolve("run", "--generations 60") + " & sleep 0.05; " +
                         wait_for_rows + "kill -HUP $!; wait $!");
   EXPECT_EQ(on.code, ok) << on.text;
+}
+
+TEST_F(Surroundings, AnOutputHasTheStandardOutputAlone) {
+  ASSERT_EQ(shell(evolve("run")).code, ok);
+  const Said gait = shell("amble gait run --undisturbed --json /dev/stdout 2>said.txt | tee gait.json");
+  EXPECT_EQ(gait.code, ok);
+  EXPECT_TRUE(nlohmann::json::accept(gait.text)) << gait.text;
+  EXPECT_THAT(slurp(scratch_ / "said.txt"), HasSubstr("duty"));
+  EXPECT_EQ(shell("amble trial run --record /dev/stdout 2>/dev/null >walk.rec && amble gait walk.rec").code,
+            ok);
+  const Said page = shell("amble view run -o /dev/stdout --trials 2 2>/dev/null");
+  EXPECT_EQ(page.text.find("<!DOCTYPE html>"), 0u);
+  EXPECT_THAT(page.text, testing::EndsWith("</html>\n"));
+}
+
+TEST_F(Surroundings, ARobotsModelIsNotWrittenOverTheOneThatItIsReadFrom) {
+  ASSERT_EQ(shell(evolve("run") + "&& amble export run --format mjcf -o own.xml && "
+                                  "amble robot --init own.xml -o own && cp own.xml kept.xml")
+                .code,
+            ok);
+  const Said said = shell("amble robot own/own.toml --mjcf own.xml");
+  EXPECT_EQ(said.code, bad_input);
+  EXPECT_THAT(said.text, HasSubstr("own/own.toml is made from it"));
+  EXPECT_EQ(shell("cmp own.xml kept.xml && amble robot own/own.toml --mjcf other.xml").code, ok);
 }
 
 TEST_F(Surroundings, AStoppedViewLeavesNothingInTheFolderForTemporaryFiles) {
