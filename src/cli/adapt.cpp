@@ -1,12 +1,4 @@
 #include "amble/experiment/adapt.hpp"
-#include "amble/cli/help.hpp"
-#include "amble/cli/options.hpp"
-#include "amble/cli/outputs.hpp"
-#include "amble/cli/stop_signal.hpp"
-#include "amble/experiment/given_damage.hpp"
-#include "amble/io/file.hpp"
-#include "amble/io/quoting.hpp"
-#include "amble/presentation/adaptation_page.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +10,7 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/given_damage.hpp"
 #include "amble/io/file.hpp"

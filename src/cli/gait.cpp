@@ -51,7 +51,10 @@ std::optional<gait::Report> measure(const GaitOptions& options) {
   if (options.engine || disturbed) {
     const io::InputFile there(options.path);  // a missing file is the first thing to tell
     fail(ExitCode::bad_input, "{}: {} has been made already",
-         options.engine ? "--engine" : "--level, --trials, --undisturbed", options.path.string());
+         options.engine                    ? "--engine"
+         : options.disturbance.undisturbed ? "--undisturbed"
+                                           : "--level, --trials, --noise",
+         options.path.string());
   }
   return gait::recorded_gait(options.path, options.settings, options.seconds);
 }

@@ -1,15 +1,4 @@
 #include "amble/experiment/repertoire.hpp"
-#include "amble/cli/help.hpp"
-#include "amble/cli/options.hpp"
-#include "amble/cli/outputs.hpp"
-#include "amble/cli/stop_signal.hpp"
-#include "amble/core/index.hpp"
-#include "amble/experiment/corrected_map.hpp"
-#include "amble/experiment/switching_champion.hpp"
-#include "amble/io/file.hpp"
-#include "amble/io/quoting.hpp"
-#include "amble/io/text.hpp"
-#include "amble/presentation/map_page.hpp"
 
 #include <fmt/format.h>
 
@@ -22,6 +11,7 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/outputs.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/corrected_map.hpp"

@@ -295,6 +295,7 @@ void add_study(CLI::App& app, Action& action) {
   command->add_flag("--discard-runs", options->discard_runs,
                     "Remove a run's folder once its record is in the ledger");
   auto* status = command->add_flag("--status", options->status, "Only say what is done");
+  status->excludes("--discard-runs");
   add_watch(*command, options->watch, "study");
   auto* retest =
       command
