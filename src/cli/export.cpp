@@ -48,11 +48,11 @@ ExitCode run_export(const ExportOptions& options) {
   check_options(options);
   const fs::path path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
-  if (options.out) prepare_output(*options.out);
   if (options.steering) exporting::steer_by_hand(champion, *options.steering, "--steering");
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
       fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
+    prepare_output(*options.out);
     exporting::write_c(champion, *options.out,
                        options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
                        stop_signal());

@@ -100,6 +100,10 @@ bool is_plane(const Config& config) {
   return !config.ground.has_field();
 }
 
+bool is_mixed(const Config& config) {
+  return config.controller.kind == "mixed";
+}
+
 /// Uneven ground that is the same in all trials.
 bool has_one_ground(const Config& config) {
   return config.ground.has_field() && config.ground.concentric() && config.ground.start_place_m == 0.0;
@@ -176,8 +180,7 @@ constexpr std::array<IdleRule, 57> idle_rules = {
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape_by", "",
       [](const Config& config) {
-        return !senses_nothing(config) && config.controller.kind != "mixed" &&
-               config.controller.supg.modulation.shape == 0.0;
+        return !senses_nothing(config) && !is_mixed(config) && config.controller.supg.modulation.shape == 0.0;
       },
       "controller.supg.modulation.shape is 0"},
      {"controller.supg.contact.", "",
@@ -206,11 +209,9 @@ constexpr std::array<IdleRule, 57> idle_rules = {
      {"command.", "command.kind",
       [](const Config& config) { return config.command.kind == trial::CommandKind::none; },
       "command.kind is \"none\""},
-     {"controller.supg.modulation.rate", "",
-      [](const Config& config) { return config.controller.kind == "mixed"; },
+     {"controller.supg.modulation.rate", "", is_mixed,
       "controller.kind is \"mixed\", whose links have the rate"},
-     {"controller.supg.modulation.shape", "",
-      [](const Config& config) { return config.controller.kind == "mixed"; },
+     {"controller.supg.modulation.shape", "", is_mixed,
       "controller.kind is \"mixed\", whose patterns are not changed"},
      {"controller.supg.modulation.reset", "", has_no_trigger, "controller.supg.trigger is \"none\""},
      {"controller.supg.modulation.refractory_ticks", "", has_no_trigger,
