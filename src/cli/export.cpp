@@ -48,11 +48,11 @@ ExitCode run_export(const ExportOptions& options) {
   check_options(options);
   const fs::path path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
+  if (options.out) prepare_output(*options.out);
   if (options.steering) exporting::steer_by_hand(champion, *options.steering, "--steering");
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
       fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
-    prepare_output(*options.out);
     exporting::write_c(champion, *options.out,
                        options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
                        stop_signal());
@@ -60,8 +60,8 @@ ExitCode run_export(const ExportOptions& options) {
   }
   const bool json = options.format == "json";
   if (options.out)
-    check_output(*options.out, json ? exporting::export_json_start : morphology::written_mjcf_start,
-                 json ? "a JSON document" : "an MJCF model");
+    io::check_output(*options.out, json ? exporting::export_json_start : morphology::written_mjcf_start,
+                     json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (stop_signal()) return ExitCode::interrupted;
   if (options.out)
