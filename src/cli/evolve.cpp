@@ -66,6 +66,16 @@ void print_oddities(const experiment::Run& run) {
     print_message(fmt::format("note: {}\n", odd));
 }
 
+/// Throws UserError where an option of its own and --set say the same setting.
+void refuse_double_settings(const experiment::Overrides& overrides) {
+  for (const std::string& assignment : overrides.assignments) {
+    const std::string key = assignment.substr(0, assignment.find_first_of(" ="));
+    if ((key == "seed" && overrides.seed) || (key == "generations" && overrides.generations))
+      fail(ExitCode::bad_input, "--{}: --set {} says the same setting; expected one of both", key,
+           assignment);
+  }
+}
+
 /// `named`: the folder as it was given. `server`: may be null.
 ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jobs,
                  std::unique_ptr<LiveServer> server) {
@@ -129,6 +139,7 @@ void add_evolve(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       stop_signal();
+      refuse_double_settings(options->overrides);
       const auto config = experiment::load_config(options->config, options->overrides);
       auto server = server_for(options->watch);
       auto run = experiment::Run::start(options->out, config, options->jobs);

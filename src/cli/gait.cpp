@@ -13,6 +13,7 @@
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/presentation/champion_gait.hpp"
 
 namespace amble::cli {
@@ -45,11 +46,10 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
 }
 
 std::optional<gait::Report> measure(const GaitOptions& options) {
-  if (fs::is_directory(options.path) || experiment::is_no_recording(options.path))
+  if (io::file_kind(options.path) != io::FileKind::recording)
     return champion_gait(experiment::champion_at(options.path), options);
   const bool disturbed = options.disturbance.asked() || options.disturbance.undisturbed;
   if (options.engine || disturbed) {
-    const io::InputFile there(options.path);  // a missing file is the first thing to tell
     fail(ExitCode::bad_input, "{}: {} has been made already",
          options.engine                    ? "--engine"
          : options.disturbance.undisturbed ? "--undisturbed"

@@ -190,6 +190,15 @@ std::string unknown_command(const CLI::App& app, std::string_view name) {
   return fmt::format("unknown command '{}'{}; amble help lists all", name, io::did_you_mean(name, known));
 }
 
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() > 0 &&
+          std::ranges::find(option->results(), "") != option->results().end())
+        fail(ExitCode::bad_input, "{} \"\": the value is empty; expected: {}", option->get_name(),
+             option->get_description());
+}
+
 UserError usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
   const auto commands = app.get_subcommands();
   if (commands.empty() && argc > 1 && argv[1][0] != '-') return UserError(unknown_command(app, argv[1]));

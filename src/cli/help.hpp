@@ -53,6 +53,10 @@ void add_help(CLI::App& app, Action& action);
 /// "unknown command 'evole' (did you mean 'evolve'?); amble help lists all".
 std::string unknown_command(const CLI::App& app, std::string_view name);
 
+/// Throws UserError for an option or a place of the command that was given "": most often a variable of a
+/// shell that is not set.
+void refuse_empty_values(const CLI::App& app);
+
 /// What is wrong with a command line that CLI11 refused, and what to do: an input that does not exist before
 /// an option that is missing; the option that may have been meant; the command whose help tells more.
 UserError usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);

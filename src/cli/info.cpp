@@ -21,6 +21,7 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/typical.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
 #include "amble/record/frame_codec.hpp"
@@ -173,13 +174,9 @@ ExitCode recording_info(const std::filesystem::path& path) {
 
 ExitCode info(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return run_info(path);
-  if (path.extension() == ".json") {
-    print_champion(experiment::load_champion(path));
-    return ExitCode::ok;
-  }
-  if (io::InputFile(path).read(record::recording_magic.size()) != record::recording_magic)
-    fail(ExitCode::bad_file, "{}: expected a run folder, a champion in .json, or a recording", path.string());
-  return recording_info(path);
+  if (io::file_kind(path) == io::FileKind::recording) return recording_info(path);
+  print_champion(experiment::load_champion(path));
+  return ExitCode::ok;
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ ExitCode run(int all, char** words) {
   } catch (const CLI::ParseError& error) {
     throw amble::cli::usage_error(app, error, argc, argv);
   }
+  amble::cli::refuse_empty_values(app);
   return action();
 }
 

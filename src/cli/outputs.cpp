@@ -19,13 +19,12 @@ fs::path resolved(const fs::path& path) {
 }
 
 void prepare_output(const fs::path& path) {
-  if (path.empty()) fail(ExitCode::bad_input, "the name of an output is empty; expected that of a file");
   experiment::refuse_among_champions(path);
   io::keep_stdout_for(path);
 }
 
 void check_output(const fs::path& path, std::string_view beginning, std::string_view what) {
-  if (!path.empty()) io::check_output(path, beginning, what);
+  io::check_output(path, beginning, what);
   prepare_output(path);
 }
 

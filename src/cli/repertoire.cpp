@@ -33,11 +33,12 @@ struct RepertoireOptions {
   std::optional<int> retest;
   std::optional<int> gaits;
   double heading_gain = experiment::usual_heading_gain;
-  int walkers = 200;
+  std::optional<int> walkers;
   int jobs = 1;
 };
 
 constexpr std::size_t listed = 10;
+constexpr int usual_walkers = 200;
 
 /// Elites by falling objective, of equal ones by cell.
 std::vector<std::uint32_t> ranking(const search::Elites& elites) {
@@ -131,8 +132,9 @@ ExitCode write_switching(const experiment::Repertoire& repertoire, const Reperto
 
 ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
   prepare_output(*options.out);
-  const presentation::MapFileOptions how{
-      .trials = options.retest, .walkers = to_index(options.walkers), .jobs = options.jobs};
+  const presentation::MapFileOptions how{.trials = options.retest,
+                                         .walkers = to_index(options.walkers.value_or(usual_walkers)),
+                                         .jobs = options.jobs};
   if (!presentation::write_map_file(repertoire, options.run, *options.out, how, stop_signal()))
     return ExitCode::interrupted;
   if (options.out->extension() == ".html")
@@ -148,6 +150,10 @@ ExitCode run_repertoire(const RepertoireOptions& options) {
          "--retest {}: not with {}, which holds what the map says; expected it alone, or with -o FILE.html, "
          ".svg or .csv",
          *options.retest, options.cell ? "--cell" : "-o FILE.json");
+  if (options.walkers && !(takes_away && options.out->extension() == ".html"))
+    fail(ExitCode::bad_input, "--walkers {}: only with -o FILE.html", *options.walkers);
+  if (retests && *options.retest > 1 && !repertoire.problem.trials_vary())
+    print_message("note: its search was without noise, and so are these trials: one of each elite is all\n");
   if (options.gaits) return write_switching(repertoire, options);
   if (options.cell) return write_elite(repertoire, *options.cell, options.out);
   if (options.out) return write_map(repertoire, options);
@@ -191,9 +197,10 @@ void add_repertoire(CLI::App& app, Action& action) {
       ->check(between(0.0, 100.0))
       ->needs(switching)
       ->capture_default_str();
-  command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
-      ->check(between(1, 10000))
-      ->capture_default_str();
+  command
+      ->add_option("--walkers", options->walkers,
+                   fmt::format("Cells at most that can be chosen in FILE.html (default: {})", usual_walkers))
+      ->check(between(1, 10000));
   add_jobs(*command, options->jobs,
            "Processors for --retest and --switching; the results do not depend on it");
   add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, the best ten"},

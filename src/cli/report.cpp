@@ -65,8 +65,6 @@ void check_options(const ReportOptions& options) {
        {Named{"--out", out, false}, Named{"--csv", options.csv, true}, Named{"--json", options.json, false},
         Named{"--figures", options.figures, true}}) {
     if (!path) continue;
-    if (path->empty())
-      fail(ExitCode::bad_input, "{}: expected the name of a {}", option, is_folder ? "folder" : "file");
     if (is_folder && fs::exists(*path) && !fs::is_directory(*path))
       fail(ExitCode::bad_input, "{}: {} is a file: name a folder", option, printable(*path));
     if (!is_folder && (fs::is_directory(*path) || !path->has_filename()))

@@ -100,6 +100,8 @@ ExitCode print_status(const study::Plan& plan, const std::vector<study::RunStatu
   const auto count = [&](study::RunStatus state) {
     return std::ranges::count_if(part, [&](std::size_t run) { return states[run] == state; });
   };
+  if (std::error_code none; !std::filesystem::exists(plan.paths.folder, none))
+    fmt::print("there is no folder {} yet\n", io::printable(plan.paths.folder.string()));
   fmt::print("{} of {} runs are done, digest {}\n", count(study::RunStatus::done), part.size(),
              ledger::ledger_digest(plan.study, ledger::Ledger(plan.paths).load_all(plan.study)));
   fmt::print("{} lack a test, {} are begun, {} not yet\n", count(study::RunStatus::untested),
@@ -245,7 +247,9 @@ void note_retest(const StudyOptions& options, const std::vector<study::RunStatus
 }
 
 ExitCode run_study(const StudyOptions& options) {
-  if (options.out.empty()) fail(ExitCode::bad_input, "--out: expected the name of a folder");
+  if (options.per_run > options.jobs)
+    fail(ExitCode::bad_input, "--per-run {}: more than --jobs {}, which all runs share", options.per_run,
+         options.jobs);
   if (experiment::is_run_folder(options.out))
     fail(ExitCode::bad_input, "--out {}: is the folder of a run; name another one for the study",
          io::printable(options.out.string()));

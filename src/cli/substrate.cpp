@@ -14,6 +14,7 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/motion/recorded_trial.hpp"
@@ -82,7 +83,7 @@ void show(const SubstrateOptions& options, const experiment::Problem& problem,
 ExitCode show_substrate(const SubstrateOptions& options) {
   if (!options.out.empty()) check_drawing("--out", options.out);
   const auto path = experiment::champion_at(options.config);
-  if (path.extension() == ".json") {
+  if (path.extension() == ".json" || io::file_kind(path) == io::FileKind::champion) {
     if (!options.overrides.assignments.empty())
       fail(ExitCode::bad_input, "--set is for a config: {} is a champion", path.string());
     const auto champion = experiment::load_champion(path);

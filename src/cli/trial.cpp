@@ -69,6 +69,9 @@ void take_old_numbers(TrialOptions& options) {
     take_old_number(options, "--episode", *options.episode);
   if (!noise || std::filesystem::exists(*noise, error)) return;
   if (!CLI::detail::lexical_cast(noise->string(), number) || number > most_old_number) return;
+  if (options.unseen || options.disturbance.trials)
+    fail(ExitCode::bad_input, "--noise {}: once meant one trial, and is not for {}; expected a config file",
+         number, options.unseen ? "--unseen" : "--trials");
   take_old_number(options, "--noise", number);
   noise.reset();
 }
@@ -86,7 +89,6 @@ void change_as_in(const std::filesystem::path& path, Change change) {
 
 /// `spec`: as experiment::damage_of() takes it.
 void damage_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
-  if (spec.empty()) fail(ExitCode::bad_input, "--damage: expected a config file, or KIND:NAME as missing:FL");
   const auto give = [&] {
     const damage::Settings damage = experiment::damage_of(spec);
     experiment::check_begins(damage, seconds.value_or(champion.problem.trial.duration_s));

@@ -15,6 +15,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/presentation/walkers_page.hpp"
 
 namespace amble::cli {
@@ -88,10 +89,10 @@ ExitCode make_view(const ViewOptions& options) {
   const auto inputs =
       options.of_all.history ? presentation::champions_of_history(options.inputs.front()) : options.inputs;
   for (const fs::path& input : inputs)
-    if (fs::is_directory(input) || experiment::is_no_recording(input))
-      add_champion(page, input, options.of_all.walk.seconds);
-    else
+    if (io::file_kind(input) == io::FileKind::recording)
       add_recording(page, input, options);
+    else
+      add_champion(page, input, options.of_all.walk.seconds);
   const std::string html = std::move(page).html();
   io::write_output(options.out, html);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());

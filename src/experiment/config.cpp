@@ -6,6 +6,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/run_paths.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::experiment {
@@ -15,17 +16,11 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
   if (is_run_folder(path))
     fail(ExitCode::bad_input, "{}: a run folder, and not a config; expected its {}", path.string(),
          RunPaths(path).config.string());
-  const io::TomlDocument document = io::TomlDocument::read(path);
   // The first unknown key of another kind of file would say little.
-  if (document.is_list("conditions"))
-    fail(ExitCode::bad_input, "{}: a study, and not the config of a run; expected `amble study` for it",
-         path.string());
-  if (document.is_list("legs"))
-    fail(ExitCode::bad_input,
-         "{}: a robot, and not the config of a run; expected a config that has robot = \"…\", e.g. the "
-         "evolve.toml beside it",
-         path.string());
-  return config_from(document, overrides);
+  io::refuse_other_kinds(path, io::FileKind::config,
+                         "and not the config of a run (one that has robot = \"…\", e.g. the evolve.toml of "
+                         "amble robot --init)");
+  return config_from(io::TomlDocument::read(path), overrides);
 }
 
 Config config_from(const io::TomlDocument& read, const Overrides& overrides) {

@@ -6,6 +6,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/text.hpp"
 #include "amble/morphology/robot_file.hpp"
 
@@ -22,7 +23,10 @@ std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
 }  // namespace
 
 robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::ReadingNotes* notes) {
-  if (path.extension() != ".json") return morphology::load_robot(path, notes);
+  const io::FileKind kind = io::file_kind(path);
+  const bool is_json =
+      kind == io::FileKind::robot || (kind == io::FileKind::other && path.extension() == ".json");
+  if (!is_json) return morphology::load_robot(path, notes);
   return robot_from_text(io::read_file(path), path.string());
 }
 

@@ -13,6 +13,7 @@
 #include "amble/experiment/new_robot.hpp"
 #include "amble/experiment/start_look.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
 #include "amble/morphology/robot_file.hpp"
@@ -264,9 +265,7 @@ std::string start_text(const robot::RobotSpec& robot) {
 std::optional<RobotFolder> write_robot_folder(const fs::path& model, fs::path folder,
                                               const std::optional<fs::path>& preset,
                                               const std::atomic<bool>& stop) {
-  if (model.extension() == ".toml" || model.extension() == ".json")
-    fail(ExitCode::bad_input, "{} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
-         model.string());
+  io::refuse_other_kinds(model, io::FileKind::model, "and not a model, MJCF (.xml) or URDF (.urdf)");
   if (folder.empty()) folder = model.stem();
   const morphology::ModelFile file = morphology::compile_model(model);
   RobotFolder written;

@@ -29,6 +29,14 @@ std::string champion_name(int generation) {
   return fmt::format("{:05}.json", generation);
 }
 
+/// Rows of the table of a run; 0 without one.
+std::ptrdiff_t generations_done(const fs::path& table) {
+  std::error_code none;
+  if (!fs::is_regular_file(table, none)) return 0;
+  const std::string text = io::read_file(table);
+  return std::max<std::ptrdiff_t>(0, std::ranges::count(text, '\n') - 1);
+}
+
 /// Of a folder that is no run's.
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "study.toml"))
@@ -76,26 +84,17 @@ std::vector<fs::path> RunPaths::champion_files() const {
 fs::path RunPaths::best_champion() const {
   const auto files = champion_files();
   std::error_code none;
-  if (files.empty() && fs::exists(checkpoint, none))
+  if (files.empty() && fs::exists(checkpoint, none) && generations_done(generations) > 0)
     fail(ExitCode::bad_input, "{}: generations are done, and {} has no champion: was it emptied?",
          folder.string(), champions.string());
-  if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
+  if (files.empty())
+    fail(ExitCode::bad_input, "{}: no champion yet: its first generation is not done", folder.string());
   return files.back();
 }
 
-bool is_source(const fs::path& path) {
-  constexpr std::array<std::string_view, 3> kinds{".toml", ".xml", ".urdf"};
-  std::error_code none;
-  return std::ranges::find(kinds, path.extension().string()) != kinds.end() &&
-         fs::is_regular_file(path, none);
-}
-
-bool is_no_recording(const std::filesystem::path& file) {
-  return file.extension() == ".json" || is_source(file);
-}
-
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
-  if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
+  std::error_code none;  // who reads the path says what is wrong with it
+  if (!fs::is_directory(champion_or_run, none)) return champion_or_run;
   return find_run(champion_or_run).best_champion();
 }
 
@@ -125,7 +124,8 @@ std::uint64_t run_digest(const RunPaths& paths) {
 
 bool is_run_folder(const fs::path& folder) {
   const RunPaths paths(folder);
-  return fs::is_regular_file(paths.config) && fs::is_regular_file(paths.robot);
+  std::error_code none;
+  return fs::is_regular_file(paths.config, none) && fs::is_regular_file(paths.robot, none);
 }
 
 void refuse_among_champions(const fs::path& file) {

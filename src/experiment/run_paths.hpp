@@ -31,12 +31,6 @@ struct RunPaths {
 /// The paths of a run to read. Throws UserError: no folder, no run, or one of another version.
 RunPaths find_run(const std::filesystem::path& folder);
 
-/// Whether a file is of what runs are made, which is easily named in their place: a config, a robot, a model.
-bool is_source(const std::filesystem::path& file);
-
-/// Whether a file is a champion by its name (.json), or is_source().
-bool is_no_recording(const std::filesystem::path& file);
-
 /// The champion that a path names: of a run folder its best champion; any other path is returned as it is,
 /// whether it exists or not. Throws UserError as find_run(), or if the run has none.
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);

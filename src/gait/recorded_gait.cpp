@@ -50,6 +50,16 @@ struct Seams {
   SeamMeter meter;
 };
 
+/// How many frames `seconds` are; endless without them.
+double frames_of(std::optional<double> seconds, double frame_s, const std::string& what) {
+  if (!seconds) return std::numeric_limits<double>::infinity();
+  const double frames = std::round(*seconds / frame_s);
+  if (std::abs(frames * frame_s - *seconds) > 1e-9 * *seconds)
+    fail(ExitCode::bad_input, "{}: seconds = {}: expected a whole number of timesteps of {} s", what,
+         *seconds, frame_s);
+  return frames;
+}
+
 }  // namespace
 
 Report recorded_gait(const std::filesystem::path& path, const Settings& settings,
@@ -78,7 +88,7 @@ Report recorded_gait(record::RecordingReader& reader, const std::string& what, c
     seams.emplace(reader, robot, body);
 
   Meter meter(body, frame_s, settings);
-  const double limit = seconds ? std::round(*seconds / frame_s) : std::numeric_limits<double>::infinity();
+  const double limit = frames_of(seconds, frame_s, what);
   bool healthy = true;
   std::vector<float> frame;
   while (reader.next(frame)) {

@@ -11,7 +11,8 @@ namespace amble::gait {
 
 /// The gait of a recording, or of its first `seconds`. Reads frame by frame, so it may be hours long. Work is
 /// measured if torques were recorded. Frames from the first that is not finite on are left out. Throws
-/// UserError as motion::read_recorded_trial() does, and where a trial that was completed is shorter.
+/// UserError as motion::read_recorded_trial() does, where `seconds` is no whole number of frames,
+/// and where a trial that was completed is shorter.
 Report recorded_gait(const std::filesystem::path& path, const Settings& settings,
                      std::optional<double> seconds = std::nullopt);
 /// The same from a reader that stands at the beginning; `what` names the recording in errors.

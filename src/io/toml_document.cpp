@@ -190,6 +190,10 @@ std::unique_ptr<TomlDocument::Reader> TomlDocument::reader() const {
   return make_toml_reader(impl_->root);
 }
 
+bool TomlDocument::has(std::string_view key_path) const {
+  return impl_->root.find_path(key_path) != nullptr;
+}
+
 bool TomlDocument::is_list(std::string_view key_path) const {
   const TomlNode* node = impl_->root.find_path(key_path);
   return node != nullptr && node->kind == TomlNode::Kind::list;

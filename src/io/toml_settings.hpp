@@ -45,6 +45,8 @@ class TomlDocument {
   /// there.
   std::vector<std::string> keys_of(std::string_view key_path) const;
 
+  bool has(std::string_view key_path) const;
+
   /// Whether the document has that key with a list, for values that may be one or several.
   bool is_list(std::string_view key_path) const;
 

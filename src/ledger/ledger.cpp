@@ -86,7 +86,10 @@ std::string ledger_digest(const StudySpec& study, const std::vector<Record>& rec
 }
 
 StudySpec load_study_copy(const StudyPaths& paths) {
-  if (!fs::is_directory(paths.folder)) fail(ExitCode::io, "{}: no such folder", paths.folder.string());
+  std::error_code none;
+  if (!fs::is_directory(paths.folder, none))
+    fail(ExitCode::io, "{}: {}", paths.folder.string(),
+         fs::exists(paths.folder, none) ? "not a folder, which that of a study is" : "no such folder");
   if (!fs::exists(paths.spec))
     fail(ExitCode::bad_input,
          "{}: not a study (study.toml is missing); to make one, run: amble study FILE --out {}",
@@ -106,6 +109,19 @@ void check_place(const StudyPaths& paths, const StudySpec& study, const std::str
     fail(ExitCode::bad_input,
          "--out {}: has the study '{}', and records of it that are not of '{}'; name another folder",
          paths.folder.string(), other.name, study.name);
+}
+
+/// Throws UserError for a folder that has folders of other kinds in it: one of several studies, or of
+/// sources.
+void refuse_foreign_folder(const StudyPaths& paths) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(paths.folder, none)) {
+    const fs::path& found = entry.path();
+    if (entry.is_directory(none) && found != paths.records && found != paths.runs)
+      fail(ExitCode::bad_input,
+           "--out {}: is no study's folder, and has others in it, as {}; name another one, e.g. {}",
+           paths.folder.string(), found.filename().string(), (paths.folder / "my-study").string());
+  }
 }
 
 /// A study as its folder keeps it, paths from there.
@@ -134,7 +150,8 @@ bool is_kept_copy(const StudyPaths& paths, const fs::path& file) {
 }  // namespace
 
 void check_folder(const StudyPaths& paths, const StudySpec& study, const fs::path& file) {
-  if (is_kept_copy(paths, file) || !fs::exists(paths.spec)) return;
+  if (is_kept_copy(paths, file)) return;
+  if (!fs::exists(paths.spec)) return refuse_foreign_folder(paths);
   const std::string text = kept_text(paths, study);
   if (io::read_file(paths.spec) != text) check_place(paths, study, text);
 }

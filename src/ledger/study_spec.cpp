@@ -8,6 +8,7 @@
 #include <set>
 
 #include "amble/core/hash.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/text.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/record/levels.hpp"
@@ -228,10 +229,8 @@ UserError StudySpec::error_at(const std::string& key, const std::string& text) c
 }
 
 StudySpec load_study(const std::filesystem::path& path, bool is_recorded) {
+  io::refuse_other_kinds(path, io::FileKind::study, "and not a study");
   const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
-  if (!document->is_list("conditions") && !document->keys_of("controller").empty())
-    fail(ExitCode::bad_input, "{}: the config of a run, and not a study; expected `amble evolve` for it",
-         path.string());
   StudySpec study;
   study.where = [document](const std::string& key) { return document->where(key); };
   const auto reader = document->reader();

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/io/toml_settings.hpp"
 
@@ -388,11 +389,8 @@ SideFile read_side_file(const std::filesystem::path& path) {
     fail(ExitCode::bad_input, "{}: a folder, and not a robot file; expected {}", path.string(),
          std::filesystem::exists(of_run, error) ? of_run.string() : "its TOML file");
   }
-  if (path.extension() != ".toml")
-    fail(ExitCode::bad_input,
-         "{}: a robot is named by its TOML file, which names the model (robots/README.md); to make one of a "
-         "model, run: amble robot --init {}",
-         path.string(), io::shell_word(path.string()));
+  io::refuse_other_kinds(path, io::FileKind::side_file,
+                         "and not a robot file (TOML that names a model; robots/README.md)");
   return SideFileReader(path, io::TomlDocument::read(path)).read();
 }
 

@@ -29,9 +29,10 @@ constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 28;
 }  // namespace
 
 Watcher::Watcher(const fs::path& folder) : folder_(folder) {
-  if (!fs::is_directory(folder))
-    fail(ExitCode::bad_input, "{}: no such folder; expected a run folder or one with run folders in it",
-         io::printable(folder.string()));
+  std::error_code none;
+  if (!fs::is_directory(folder, none))
+    fail(ExitCode::bad_input, "{}: {}; expected a run folder or one with run folders in it",
+         io::printable(folder.string()), fs::exists(folder, none) ? "not a folder" : "no such folder");
   look(now_s());
   thread_ = std::thread([this] { work(); });
 }

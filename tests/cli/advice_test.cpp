@@ -66,7 +66,8 @@ TEST_F(Advice, OutMayBeShortWhereverItIs) {
                           "--generations", "1", "-o", run_});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(fs::exists(run_ + "/generations.csv"));
-  expect_refusal({"study", config, "-o", out_}, ExitCode::bad_input, "`amble evolve` for it");
+  expect_refusal({"study", config, "-o", out_}, ExitCode::bad_input,
+                 "to evolve walkers by it, run: amble evolve ");
   expect_refusal({"info", run_, "-o"}, ExitCode::bad_input, "unknown option '-o' (amble info --help)");
 }
 

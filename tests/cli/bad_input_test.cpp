@@ -9,6 +9,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+const std::string walker = source + "/robots/hexapod/steered.json";
+
 TEST_F(BadInput, AnUnknownCommand) {
   expect_refusal({"dance"}, ExitCode::bad_input, "unknown command 'dance'; amble help lists all");
   expect_refusal({"evole", config}, ExitCode::bad_input, "unknown command 'evole' (did you mean 'evolve'?)");
@@ -27,11 +29,62 @@ TEST_F(BadInput, AnUnknownOption) {
 TEST_F(BadInput, AFileOfAnotherKindIsNamedWithTheCommandForIt) {
   const std::string source = AMBLE_SOURCE_DIR;
   expect_refusal({"evolve", source + "/studies/smoke.toml", "--out", out_}, ExitCode::bad_input,
-                 "smoke.toml: a study, and not the config of a run; expected `amble study` for it");
+                 "smoke.toml: a study, and not the config of a run");
+  expect_refusal({"evolve", source + "/studies/smoke.toml", "--out", out_}, ExitCode::bad_input,
+                 "; to run it, run: amble study " + source + "/studies/smoke.toml --out FOLDER");
   expect_refusal({"evolve", source + "/robots/hexapod/hexapod.toml", "--out", out_}, ExitCode::bad_input,
-                 "hexapod.toml: a robot, and not the config of a run");
+                 "hexapod.toml: a robot file, and not the config of a run (one that has robot = ");
   expect_refusal({"study", config, "--out", out_}, ExitCode::bad_input,
-                 "the config of a run, and not a study; expected `amble evolve` for it");
+                 "the config of a run, and not a study; to evolve walkers by it, run: amble evolve ");
+}
+
+TEST_F(BadInput, AnEmptyValueIsNamedWithWhatIsExpected) {
+  const std::string robot = AMBLE_SOURCE_DIR "/robots/hexapod/hexapod.toml";
+  const std::vector<std::string> commands[] = {{"robot", robot, "--draw", ""},
+                                               {"robot", robot, "--mjcf", ""},
+                                               {"robot", "--init", "model.xml", "-o", ""},
+                                               {"substrate", config, "-o", ""},
+                                               {"view", walker, "--level", "", "-o", out_},
+                                               {"view", walker, "--static", "-o", out_, "--figures", ""},
+                                               {"view", "runs", "--live", "--address", ""},
+                                               {"trial", walker, "--noise", ""},
+                                               {"trial", walker, "--record", ""},
+                                               {"trial", walker, "--damage", ""},
+                                               {"trial", ""},
+                                               {"gait", ""}};
+  for (const auto& command : commands)
+    expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; expected: ");
+  EXPECT_FALSE(fs::exists("path.svg")) << "figures of no folder are drawn into the current one";
+}
+
+TEST_F(BadInput, AFileIsToldByWhatItHoldsAndNotByItsName) {
+  const std::string champion = scratch_ / "walker.txt", recording = scratch_ / "walk.json",
+                    study = scratch_ / "walks";
+  spill(champion, slurp(walker));
+  ASSERT_EQ(amble({"trial", champion, "--seconds", "1", "--record", recording}).exit_code, 0);
+  for (const std::string command : {"info", "gait", "draw", "substrate"})
+    EXPECT_EQ(amble({command, champion}).exit_code, 0) << command;
+  for (const std::string command : {"info", "gait"})
+    EXPECT_EQ(amble({command, recording}).exit_code, 0) << command;
+  EXPECT_EQ(amble({"view", recording, champion, "--seconds", "1", "-o", out_}).exit_code, 2);
+  expect_refusal({"trial", recording}, ExitCode::bad_file, "walk.json: is a recording");
+  spill(study, slurp(AMBLE_SOURCE_DIR "/studies/smoke.toml"));
+  expect_refusal({"info", study}, ExitCode::bad_input, "walks: a study, and no walker");
+  expect_refusal({"robot", study}, ExitCode::bad_input, "walks: a study, and not a robot file");
+  expect_refusal({"robot", config}, ExitCode::bad_input, ": the config of a run, and not a robot file");
+  expect_refusal({"robot", walker}, ExitCode::bad_input, ": a champion, and not a robot file");
+  expect_refusal({"robot", scratch_ / "nowhere"}, ExitCode::io, "nowhere: No such file or directory");
+  expect_refusal({"robot", "--init", config}, ExitCode::bad_input, ": the config of a run, and not a model");
+  expect_refusal({"evolve", champion, "--out", out_}, ExitCode::bad_input,
+                 "walker.txt: a champion, and not the config of a run");
+  expect_refusal({"study", walker, "--out", out_}, ExitCode::bad_input, ": a champion, and not a study");
+}
+
+TEST_F(BadInput, TheSameSettingTwice) {
+  expect_refusal({"evolve", config, "--seed", "5", "--set", "seed=6", "--out", out_}, ExitCode::bad_input,
+                 "--seed: --set seed=6 says the same setting");
+  expect_refusal({"evolve", config, "--generations", "5", "--set", "generations = 6", "--out", out_},
+                 ExitCode::bad_input, "--generations: --set generations = 6 says the same setting");
 }
 
 TEST_F(BadInput, AnInputThatDoesNotExistIsNamedBeforeAnOptionThatIsMissing) {
@@ -208,8 +261,6 @@ TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
   for (const std::string name : {"99999.json", "../champions/99999.json"})
     expect_refusal({"gait", champion, "--json", run_ + "/champions/" + name}, ExitCode::bad_input,
                    "a run keeps its own champions there");
-  expect_refusal({"trial", champion, "--record", ""}, ExitCode::bad_input,
-                 "the name of an output is empty; expected that of a file");
   fs::create_directories(scratch_ / "figures");
   spill(scratch_ / "figures/path.svg", "a letter to a friend");
   expect_refusal({"page", run_, "-o", scratch_ / "page.html", "--figures", scratch_ / "figures"},
@@ -293,10 +344,8 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
                  "there is no file nowhere.toml");
   const std::string robot = AMBLE_SOURCE_DIR "/robots/hexapod/hexapod.toml";
   for (const char* const command : {"trial", "gait"})
-    expect_refusal({command, robot}, ExitCode::bad_input, "what a run is made of, and no walker");
+    expect_refusal({command, robot}, ExitCode::bad_input, "hexapod.toml: a robot file, and no walker");
   expect_refusal({"view", robot, "-o", scratch_ / "page.html"}, ExitCode::bad_input, "and no walker");
-  expect_refusal({"trial", champion, "--damage", ""}, ExitCode::bad_input,
-                 "--damage: expected a config file");
   for (const std::string command : {"trial", "gait", "compare"})
     expect_refusal({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
   expect_refusal({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");

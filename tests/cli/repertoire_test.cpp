@@ -258,6 +258,12 @@ TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   expect_refusal({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
                  "the map has the cells 0 … 624");
   expect_refusal({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"-o", scratch_ / "m.svg"}, {"--cell", "0", "-o", out}}) {
+    std::vector<std::string> arguments{"repertoire", folder, "--walkers", "9"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refusal(arguments, ExitCode::bad_input, "--walkers 9: only with -o FILE.html");
+  }
   expect_refusal({"repertoire", folder, "--cell", "0470", "-o", out}, ExitCode::bad_input,
                  "without a leading 0");
   for (const std::vector<std::string>& command :

@@ -140,9 +140,9 @@ TEST_F(ReportCommand, ChecksAllItsOutputsBeforeItWritesAny) {
       {"none.html", {"--figures", *shared_ / "file"}, "file is a file: name a folder"},
       {"none.html", {"--csv", *shared_ / "taken"}, "runs.csv is a folder"},
       {"none.html", {"--json", *shared_ / "folder"}, "folder is a folder: name a file"},
-      {"none.html", {"--csv", ""}, "--csv: expected the name of a folder"},
-      {"none.html", {"--figures", ""}, "--figures: expected the name of a folder"},
-      {"none.html", {"--json", ""}, "--json: expected the name of a file"},
+      {"none.html", {"--csv", ""}, "--csv \"\": the value is empty"},
+      {"none.html", {"--figures", ""}, "--figures \"\": the value is empty"},
+      {"none.html", {"--json", ""}, "--json \"\": the value is empty"},
       {"none.html", {"--json", *shared_ / "file/below.json"}, "Not a directory"},
       {"folder", {}, "folder is a folder: name a file"}};
   for (const auto& [out, more, message] : cases) {

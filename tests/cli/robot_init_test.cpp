@@ -229,7 +229,7 @@ TEST_F(RobotInit, ReplacesNothing) {
 TEST_F(RobotInit, RefusesWhatIsNoModel) {
   expect_refusal({"robot", "--init", scratch_ / "gone.xml"}, ExitCode::io, "gone.xml");
   expect_refusal({"robot", "--init", source + "/robots/quadruped/paper.toml"}, ExitCode::bad_input,
-                 "is a robot file: expected a model");
+                 ": a robot file, and not a model, MJCF (.xml) or URDF (.urdf)");
   expect_refusal({"robot"}, ExitCode::bad_input, "--init MODEL");
 }
 

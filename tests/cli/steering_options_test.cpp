@@ -40,7 +40,7 @@ TEST_F(SteeringOptions, WhatIsWrongWithACommandIsSaid) {
       {"0,-101", "turn = -101: expected a number from -100 to 100 (rad/s to the left)"},
       {"0.2,0,-1", "seconds = -1: expected a number from 0 to 1000000"},
       {"0.2,0;", "--command \"0.2,0;\": expected SPEED,TURN or SPEED,TURN,SECONDS"},
-      {"", "--command \"\": expected SPEED,TURN"},
+      {" ", "--command \" \": expected SPEED,TURN"},
       {"0.2,x", "--command \"0.2,x\": expected SPEED,TURN"},
       {"0.2,0,10; 0.1,0",
        "--command \"0.2,0,10; 0.1,0\": 10 s of them leave nothing of a trial of 1 s for those without "
@@ -63,7 +63,7 @@ TEST_F(SteeringOptions, GainsAreNamedAsTheyWereWritten) {
 }
 
 TEST_F(SteeringOptions, WhatIsNoGainsIsQuotedWithAnExample) {
-  for (const std::string gains : {"", "turn_gain =", "turn_gain = 1,", "turn_gain = 1 full_speed_m_s = 2",
+  for (const std::string gains : {" ", "turn_gain =", "turn_gain = 1,", "turn_gain = 1 full_speed_m_s = 2",
                                   "turn_gain = [1", "my_robot/steer.toml", "[x]", "= 1"})
     expect_refused_gains(gains, "--steering: \"" + gains +
                                     "\": expected gains, KEY = VALUE with a comma between two "

@@ -216,7 +216,27 @@ TEST_F(Study, NotesCommandsThatChampionsAreNotToldOrDoNotHear) {
 TEST_F(Study, InAFolderWithoutANameIsRefused) {
   const auto refused = amble({"study", (folder_ / "study.toml").string(), "--out", ""});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.err, "amble: --out: expected the name of a folder\n");
+  EXPECT_EQ(
+      refused.err,
+      "amble: --out \"\": the value is empty; expected: Folder of the study; goes on with what is there\n");
+}
+
+TEST_F(Study, DoesNotGoIntoAFolderThatHoldsOtherFolders) {
+  fs::create_directories(folder_ / "results" / "another");
+  const auto refused = study("results");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, testing::HasSubstr("is no study's folder, and has others in it, as another"));
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  fs::create_directories(folder_ / "logs");
+  spill(folder_ / "logs" / "log.txt", "of a shell");
+  EXPECT_EQ(study("logs", {"--status"}).exit_code, 0);
+  EXPECT_THAT(study("nowhere", {"--status"}).out, testing::StartsWith("there is no folder "));
+}
+
+TEST_F(Study, TakesNoMoreProcessorsForARunThanItHas) {
+  const auto refused = study("s", {"--jobs", "2", "--per-run", "4"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "amble: --per-run 4: more than --jobs 2, which all runs share\n");
 }
 
 TEST_F(Study, ReplacesNoStudyFileInItsFolderThatItHasNotWritten) {

@@ -129,6 +129,17 @@ TEST_F(Folder, ThatIsMissingOrNoRunCannotBeResumed) {
   EXPECT_THAT(error_of([&] { RunFolder::open(folder_ / "notes"); }), HasSubstr("notes: not a folder"));
 }
 
+TEST_F(Folder, ThatWasStoppedInItsFirstGenerationHasNoChampionYet) {
+  begun();
+  const RunPaths paths(folder_);
+  io::write_file(paths.checkpoint, "of generation 0");
+  io::write_file(paths.generations, "generation,best\n");
+  EXPECT_THAT(error_of([&] { paths.best_champion(); }),
+              HasSubstr("no champion yet: its first generation is not done"));
+  io::write_file(paths.generations, "generation,best\n0,1.5\n");
+  EXPECT_THAT(error_of([&] { paths.best_champion(); }), HasSubstr("has no champion: was it emptied?"));
+}
+
 TEST_F(Folder, ManifestGrowsByEachProcess) {
   const auto run = begun();
   run.note_process(config_, 1, 17);

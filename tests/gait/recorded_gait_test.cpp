@@ -1,5 +1,6 @@
 #include "amble/gait/recorded_gait.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -96,6 +97,12 @@ TEST_F(RecordedGait, IsNotOfMoreSecondsThanACompletedTrialHas) {
   EXPECT_DOUBLE_EQ(recorded_gait(path_, {}, 12.0).seconds, 12.0);
   EXPECT_EQ(test::error_of(ExitCode::bad_input, [&] { recorded_gait(path_, {}, 100.0); }),
             path_.string() + ": seconds = 100: it is 12 s long; expected at most that");
+}
+
+TEST_F(RecordedGait, IsOfWholeFrames) {
+  write(true, record::Outcome::completed);
+  EXPECT_THAT(test::error_of(ExitCode::bad_input, [&] { recorded_gait(path_, {}, 1.0005); }),
+              testing::HasSubstr("seconds = 1.0005: expected a whole number of timesteps of "));
 }
 
 TEST_F(RecordedGait, EndsBeforeAFrameThatIsNotFinite) {

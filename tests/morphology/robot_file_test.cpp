@@ -130,8 +130,8 @@ TEST(LoadRobot, WantsTheTomlFileNotTheModel) {
   const auto path = files.write("one_leg.xml", one_leg_xml);
   EXPECT_EQ(
       files.error_of([&] { load_robot(path); }),
-      "one_leg.xml: a robot is named by its TOML file, which names the model (robots/README.md); to make "
-      "one of a model, run: amble robot --init one_leg.xml");
+      "one_leg.xml: the model of a robot, and not a robot file (TOML that names a model; robots/README.md); "
+      "to make a robot of it, run: amble robot --init one_leg.xml");
 }
 
 TEST(LoadRobot, SaysWhichFileIsMissing) {
