@@ -166,6 +166,9 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) code = report(ExitCode::io, "cannot write to the standard output");
   } catch (const amble::UserError& error) {
     code = report(error.code(), error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    code = report(ExitCode::io, fmt::format("{}: {}", amble::io::printable(error.path1().string()),
+                                            error.code().message()));
   } catch (const std::system_error& error) {  // of files: permissions, a full device
     code = report(ExitCode::io, fmt::format("{}{}", error.what(), circumstances(argc, argv)));
   } catch (const std::bad_alloc&) {

@@ -14,7 +14,9 @@ namespace amble::experiment {
 
 damage::Settings damage_of(const std::string& spec) {
   std::error_code error;
-  if (std::filesystem::exists(spec, error)) {
+  // A path that may not be looked at is named by who reads it.
+  if (std::filesystem::exists(spec, error) ||
+      (error && spec != "none" && spec.find(':') == std::string::npos)) {
     damage::Settings damage = load_config(spec, {}).damage;
     if (damage.is_default())
       fail(ExitCode::bad_input,

@@ -281,7 +281,7 @@ std::optional<RobotFolder> write_robot_folder(const fs::path& model, fs::path fo
   NewRobot made = make_new_robot(file, path_from(folder, model), written.robot_file);
   if (stop) return std::nullopt;
   std::optional<robot::RobotSpec>& robot = made.robot;
-  fs::create_directories(folder);
+  io::make_folder(folder);
   // The file ends with [contact].
   const std::string sweeps = robot ? sweeps_line(*robot) : "";
   io::write_file(written.robot_file, made.guess.toml + sweeps);

@@ -137,8 +137,8 @@ void refuse_among_champions(const fs::path& file) {
 }
 
 RunPaths find_run(const fs::path& folder) {
-  if (!fs::is_directory(folder))
-    fail(ExitCode::io, "{}: {}", folder.string(), fs::exists(folder) ? "not a folder" : "no such folder");
+  if (const std::string why = io::why_no_folder(folder); !why.empty())
+    fail(ExitCode::io, "{}: {}", folder.string(), why);
   if (!is_run_folder(folder)) refuse_folder(folder);
   RunPaths paths(folder);
   io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());

@@ -244,6 +244,16 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
 }
 
+std::string why_no_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return "no such folder";
+  if (error) return error.message();
+  if (!fs::is_directory(status)) return "not a folder";
+  const fs::directory_iterator contents(path, error);
+  return error ? error.message() : "";
+}
+
 namespace {
 
 /// Formats that others write as well, by how they begin, and what amble's own files have soon after.

@@ -80,6 +80,10 @@ void sync_entry(const std::filesystem::path& path);
 /// "a.txt". Throws UserError(ExitCode::io).
 void make_folder(const std::filesystem::path& folder);
 
+/// Empty for a folder that can be read; else why it is none, for a message: "no such folder", "not a folder",
+/// "Permission denied".
+std::string why_no_folder(const std::filesystem::path& path);
+
 /// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
 /// `beginning`, or, where others write such files, too, that do not look like amble's own: it is not of the
 /// kind that would be written (`what`, e.g. "a recording"), and must not be replaced.

@@ -86,10 +86,8 @@ std::string ledger_digest(const StudySpec& study, const std::vector<Record>& rec
 }
 
 StudySpec load_study_copy(const StudyPaths& paths) {
-  std::error_code none;
-  if (!fs::is_directory(paths.folder, none))
-    fail(ExitCode::io, "{}: {}", paths.folder.string(),
-         fs::exists(paths.folder, none) ? "not a folder, which that of a study is" : "no such folder");
+  if (const std::string why = io::why_no_folder(paths.folder); !why.empty())
+    fail(ExitCode::io, "{}: {}", paths.folder.string(), why);
   if (!fs::exists(paths.spec))
     fail(ExitCode::bad_input,
          "{}: not a study (study.toml is missing); to make one, run: amble study FILE --out {}",

@@ -9,6 +9,7 @@
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 #include "amble/io/background_thread.hpp"
+#include "amble/io/file.hpp"
 #include "amble/io/text.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/watch/elite.hpp"
@@ -29,10 +30,9 @@ constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 28;
 }  // namespace
 
 Watcher::Watcher(const fs::path& folder) : folder_(folder) {
-  std::error_code none;
-  if (!fs::is_directory(folder, none))
+  if (const std::string why = io::why_no_folder(folder); !why.empty())
     fail(ExitCode::bad_input, "{}: {}; expected a run folder or one with run folders in it",
-         io::printable(folder.string()), fs::exists(folder, none) ? "not a folder" : "no such folder");
+         io::printable(folder.string()), why);
   look(now_s());
   thread_ = std::thread([this] { work(); });
 }

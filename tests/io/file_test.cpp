@@ -139,6 +139,24 @@ TEST(WriteFile, SaysThatPermissionIsLackingAndKeepsTheOldFile) {
   EXPECT_EQ(read_file(folder / "f"), "old");
 }
 
+TEST(WhyNoFolder, SaysWhatStandsInTheWay) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(why_no_folder(folder.path()), "");
+  EXPECT_EQ(why_no_folder(folder / "none"), "no such folder");
+  write_file(folder / "f", "x");
+  EXPECT_EQ(why_no_folder(folder / "f"), "not a folder");
+  std::filesystem::create_directory(folder / "closed");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  std::filesystem::permissions(folder / "closed", std::filesystem::perms(0));
+  const int status = test::in_child_process([&] {
+    become_nobody();
+    const std::string denied = "Permission denied";
+    return why_no_folder(folder / "closed") == denied && why_no_folder(folder / "closed/deep") == denied ? 0
+                                                                                                         : 1;
+  });
+  EXPECT_EQ(status, 0);
+}
+
 TEST(AtomicFile, ShowsItselfOnlyWhenCommitted) {
   const test::TemporaryFolder folder;
   {
