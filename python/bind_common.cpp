@@ -38,7 +38,14 @@ py::object to_python(const io::Json& json) {
 }
 
 io::Json to_json(const py::object& object, const std::string& what) {
-  const py::object text = py::module_::import("json").attr("dumps")(object);
+  // Numbers of numpy are written as Python's.
+  const py::cpp_function plain([&what](const py::object& value) -> py::object {
+    if (PyObject_HasAttrString(value.ptr(), "item") != 0) return value.attr("item")();
+    throw py::type_error(fmt::format("{}: expected numbers, texts, lists and dicts, found {}", what,
+                                     py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
+  });
+  const py::object text = py::module_::import("json").attr("dumps")(object, py::arg("default") = plain,
+                                                                    py::arg("allow_nan") = false);
   return io::parse_json(text.cast<std::string>(), what);
 }
 

@@ -18,6 +18,36 @@ std::string number_text(const py::handle& number) {
   return text.cast<std::string>();
 }
 
+/// ValueError for a text that TOML cannot hold.
+std::string utf8_of(const py::handle& text) {
+  const auto bytes =
+      py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(text.ptr(), "utf-8", "strict"));
+  if (!bytes) {
+    PyErr_Clear();
+    throw py::value_error("overrides: " + py::repr(text).cast<std::string>() +
+                          ": expected text that is UTF-8");
+  }
+  return bytes.cast<std::string>();
+}
+
+/// A key or a path of keys; what is TOML beside them would be read as such.
+std::string key_of(const py::handle& name) {
+  if (!py::isinstance<py::str>(name)) throw py::type_error("overrides: expected keys of type str");
+  std::string key = utf8_of(name);
+  bool quoted = false;
+  for (const char letter : key) {
+    quoted ^= letter == '"';
+    if (!quoted && std::string_view("=#{}, \t\r\n").find(letter) != std::string_view::npos)
+      throw py::value_error(fmt::format("overrides: '{}': expected the name of a setting", key));
+  }
+  return key;
+}
+
+/// Mappings of other kinds, as ChainMap, as dicts.
+bool is_mapping(const py::handle& value) {
+  return py::isinstance(value, py::module_::import("collections.abc").attr("Mapping"));
+}
+
 constexpr int deepest_nesting = 100;  // of what holds itself
 
 /// A Python value as TOML: true, 3, 0.5, "text", [1, 2].
@@ -28,19 +58,18 @@ std::string toml_of(const py::handle& value, const std::string& key, int depth =
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) return number_text(value);
   if (py::isinstance<py::str>(value))
-    return py::module_::import("json")
-        .attr("dumps")(value, py::arg("ensure_ascii") = false)
-        .cast<std::string>();
+    return utf8_of(py::module_::import("json").attr("dumps")(value, py::arg("ensure_ascii") = false));
+  if (PyObject_HasAttrString(value.ptr(), "__fspath__") != 0)
+    return toml_of(py::module_::import("os").attr("fsdecode")(value), key, depth);
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     std::string items;
     for (const auto& item : value) items += (items.empty() ? "" : ", ") + toml_of(item, key, depth + 1);
     return "[" + items + "]";
   }
-  if (py::isinstance<py::dict>(value)) {
+  if (is_mapping(value)) {
     std::string items;
-    for (const auto& [name, item] : value.cast<py::dict>())
-      items += (items.empty() ? "" : ", ") + py::str(name).cast<std::string>() + " = " +
-               toml_of(item, key, depth + 1);
+    for (const auto& [name, item] : py::dict(py::reinterpret_borrow<py::object>(value)))
+      items += (items.empty() ? "" : ", ") + key_of(name) + " = " + toml_of(item, key, depth + 1);
     return "{" + items + "}";
   }
   if (PyObject_HasAttrString(value.ptr(), "item") != 0) {
@@ -57,10 +86,9 @@ void add_assignments(const py::dict& overrides, const std::string& prefix,
   if (depth > deepest_nesting)
     throw py::value_error(fmt::format("overrides: expected tables nested at most {} deep", deepest_nesting));
   for (const auto& [name, value] : overrides) {
-    if (!py::isinstance<py::str>(name)) throw py::type_error("overrides: expected keys of type str");
-    const std::string key = prefix + name.cast<std::string>();
-    if (py::isinstance<py::dict>(value))
-      add_assignments(value.cast<py::dict>(), key + ".", assignments, depth + 1);
+    const std::string key = prefix + key_of(name);
+    if (is_mapping(value))
+      add_assignments(py::dict(py::reinterpret_borrow<py::object>(value)), key + ".", assignments, depth + 1);
     else
       assignments.push_back(key + "=" + toml_of(value, key));
   }
@@ -83,8 +111,8 @@ py::object item_of(const LoadedConfig& config, const std::string& key) {
 std::vector<std::string> assignments_of(const py::object& overrides) {
   std::vector<std::string> assignments;
   if (overrides.is_none()) return assignments;
-  if (!py::isinstance<py::dict>(overrides)) throw py::type_error("overrides: expected a dict");
-  add_assignments(overrides.cast<py::dict>(), "", assignments);
+  if (!is_mapping(overrides)) throw py::type_error("overrides: expected a dict");
+  add_assignments(py::dict(overrides), "", assignments);
   return assignments;
 }
 

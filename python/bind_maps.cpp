@@ -101,8 +101,15 @@ ReadableChampion elite_of(const ReadableMap& self, std::optional<std::uint32_t> 
   return {{}, std::move(*champion)};
 }
 
+/// As the command line notes it.
+void warn_of_equal_trials(const ReadableMap& self, int trials) {
+  if (trials > 1 && !self.value.problem.trials_vary())
+    warn("trials: the search was without noise, and so are these trials: one of each elite is all");
+}
+
 py::dict retest(const ReadableMap& self, int trials, std::optional<int> jobs) {
   check_whole("trials", trials, 1, 1000);
+  warn_of_equal_trials(self, trials);
   const int workers = jobs_of(jobs);
   std::optional<experiment::CorrectedMap> corrected;
   Interruptible interruptible;
@@ -129,13 +136,17 @@ py::dict retest(const ReadableMap& self, int trials, std::optional<int> jobs) {
   return dict;
 }
 
-py::str save_map(const ReadableMap& self, const py::object& path, std::optional<int> trials, int walkers,
-                 std::optional<int> jobs) {
+py::str save_map(const ReadableMap& self, const py::object& path, std::optional<int> trials,
+                 std::optional<int> walkers, std::optional<int> jobs) {
   if (trials) check_whole("trials", *trials, 0, 1000);
-  check_whole("walkers", walkers, 1, 10000);
+  if (walkers) check_whole("walkers", *walkers, 1, 10000);
   const auto file = path_of(path);
-  const presentation::MapFileOptions how{
-      .trials = trials, .walkers = static_cast<std::size_t>(walkers), .jobs = jobs_of(jobs)};
+  if (trials.value_or(0) > 0 && file.extension() == ".json")
+    throw py::value_error("trials: a .json file holds what the map says; expected FILE.html, .svg or .csv");
+  if (walkers && file.extension() != ".html") throw py::value_error("walkers: only for a page, FILE.html");
+  warn_of_equal_trials(self, trials.value_or(0));
+  presentation::MapFileOptions how{.trials = trials, .jobs = jobs_of(jobs)};
+  if (walkers) how.walkers = static_cast<std::size_t>(*walkers);
   Interruptible interruptible;
   interruptible.run(
       [&] { presentation::write_map_file(self.value, self.run, file, how, interruptible.stop()); });
@@ -235,12 +246,12 @@ objective and descriptor are the means), descriptor (elites × dimensions, float
 (of the map that the new trials fill), promised_qd_score (as the map says), staying_share (elites that stay in their
 cell); and arrays in the order of elites(): cell, objective, stays.)")
       .def(
-          "save", save_map, py::arg("path"), py::arg("trials") = py::none(), py::arg("walkers") = 200,
+          "save", save_map, py::arg("path"), py::arg("trials") = py::none(), py::arg("walkers") = py::none(),
           py::kw_only(), py::arg("jobs") = py::none(),
           R"(Writes the map; returns the path, a str. By its ending: .html (a page in which elites walk), .svg, .csv, .json.
 
 trials: new trials of each elite, which the file tells (default: 20 of a map made under noise, else 0). walkers: cells at
-most that can be chosen in the page. Raises Error.)")
+most that can be chosen in the page (default: 200). Raises Error.)")
       .def(
           "adapt", adapt, py::arg("damage"), py::arg("engine") = "ode", py::arg("trials") = 20, py::kw_only(),
           py::arg("episodes") = 1, py::arg("test_trials") = 20, py::arg("page") = py::none(),

@@ -5,6 +5,7 @@
 #include "amble/core/index.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/record/recording.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
@@ -48,6 +49,9 @@ py::object gait(const py::object& recording, std::optional<double> seconds) {
   const bool in_memory = py::isinstance<ReadRecording>(recording);
   const auto path = in_memory ? recording.cast<const ReadRecording&>().path : path_of(recording);
   check_seconds(seconds);
+  const io::FileKind kind = in_memory ? io::FileKind::recording : io::file_kind(path);
+  if (kind == io::FileKind::folder || kind == io::FileKind::champion)
+    return py::cast(champion_at(path)).attr("gait")(seconds);
   std::string text;
   {
     const ReadRecording* const held = in_memory ? &recording.cast<const ReadRecording&>() : nullptr;

@@ -104,7 +104,8 @@ py::dict generations_of(const ReadableRun& run) {
   const auto& file = run.paths().generations;
   const auto text = io::read_file(file);
   record::parse_generations(text, file.string());  // its checks
-  return to_dict(parse_columns(text));
+  // Without a row that was being written as its machine stopped.
+  return to_dict(parse_columns(std::string_view(text).substr(0, text.rfind('\n') + 1)));
 }
 
 py::dict result_dict(const experiment::TrialResult& result) {

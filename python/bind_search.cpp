@@ -55,7 +55,9 @@ struct OpenSearch {
   bool has_asked = false;                        ///< for the genomes of this round, or was pickled
   std::vector<std::vector<std::uint64_t>> told;  ///< hashes of the genomes of each round that is over
   std::vector<std::string> logs;                 ///< as far as they have been taken
-  CallLock lock;                                 ///< of state, told and logs
+  /// Of the round in which it was pickled: a checkpoint has none.
+  std::optional<std::pair<int, std::vector<std::pair<std::string, double>>>> pickled_metrics;
+  CallLock lock;  ///< of state, told, logs and pickled_metrics
 };
 
 LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) {
@@ -71,9 +73,16 @@ std::vector<neat::Genome> ask(OpenSearch& self) {
   return {candidates.begin(), candidates.end()};
 }
 
-std::vector<search::Metric> metrics_of(OpenSearch& self) {
-  const auto lock = self.lock.hold();
-  return self.state->strategy->metrics();
+using Metrics = std::vector<std::pair<std::string, double>>;
+
+/// To be called with the lock.
+Metrics metrics_of(const OpenSearch& self) {
+  const search::Strategy& strategy = *self.state->strategy;
+  if (self.pickled_metrics && self.pickled_metrics->first == strategy.round())
+    return self.pickled_metrics->second;
+  Metrics metrics;
+  for (const auto& [name, value] : strategy.metrics()) metrics.emplace_back(name, value);
+  return metrics;
 }
 
 /// The rows of behaviours that a search compares; nothing for a search that compares none.
@@ -137,25 +146,28 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
 py::tuple pickled_search(OpenSearch& self) {
   std::string checkpoint;
   py::list logs, told;
+  Metrics metrics;
   {
     const auto lock = self.lock.hold();
     for (const std::string& log : self.grown_logs()) logs.append(py::bytes(log));
     for (const auto& round : self.told)
       told.append(py::array_t<std::uint64_t>(static_cast<py::ssize_t>(round.size()), round.data()));
     checkpoint = experiment::checkpoint_bytes(self.task->config.value, {}, *self.state->strategy);
+    metrics = metrics_of(self);
   }
-  return py::make_tuple(self.task->config, py::bytes(checkpoint), logs, told);
+  return py::make_tuple(self.task->config, py::bytes(checkpoint), logs, told, metrics);
 }
 
 std::unique_ptr<OpenSearch> unpickled_search(const py::tuple& state) {
   constexpr const char* what = "Search: its pickled state";
-  if (state.size() != 4) throw py::value_error(std::string(what) + " is of another version");
+  if (state.size() != 5) throw py::value_error(std::string(what) + " is of another version");
   auto search = std::make_unique<OpenSearch>(state[0].cast<const LoadedConfig&>());
   search->has_asked = true;
   auto& strategy = *search->state->strategy;
   experiment::parse_checkpoint(state[1].cast<std::string>(), what, search->task->config.value, strategy);
   search->logs = state[2].cast<std::vector<std::string>>();
   search->told = state[3].cast<std::vector<std::vector<std::uint64_t>>>();
+  search->pickled_metrics.emplace(strategy.round(), state[4].cast<Metrics>());
   if (search->logs.size() != strategy.logs().size())
     throw py::value_error(std::string(what) + " is of another search");
   for (std::size_t i = 0; i < search->logs.size(); ++i) {
@@ -388,7 +400,8 @@ Its facts are of the config's objective, whatever fitness tell() was given, and 
           "metrics",
           [](OpenSearch& self) {
             py::dict metrics;
-            for (const auto& [name, value] : metrics_of(self)) metrics[py::str(std::string(name))] = value;
+            const auto lock = self.lock.hold();
+            for (const auto& [name, value] : metrics_of(self)) metrics[py::str(name)] = value;
             return metrics;
           },
           "Statistics of the last completed round, a dict: species, threshold and so on.")

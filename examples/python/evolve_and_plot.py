@@ -31,7 +31,7 @@ learning.legend()
 # %% How the champion walks: joint angles of the front left leg, and footfalls
 print(champion.trial(seconds=5.0, record=folder / "walk.rec"))
 walk = amble.Recording(folder / "walk.rec")
-time_s = np.arange(len(walk)) * walk.frame_s
+time_s = np.arange(1, len(walk) + 1) * walk.frame_s  # frame k is the state after step k + 1
 for joint in ("FL_knee", "FL_hip_fb", "FL_hip_io"):
     walking.plot(time_s, walk[f"angle.{joint}"], label=joint)
 walking.set(xlabel="time, s", ylabel="angle, rad")

@@ -6,6 +6,7 @@
 """
 
 import numbers
+from collections.abc import Mapping
 
 import gymnasium
 import numpy as np
@@ -19,8 +20,8 @@ class Commands:
     """What each robot is told, drawn anew for each stretch, and how well it obeys, second by second.
 
     A second is judged as the quantity `tracking` does (docs/SCORES.md), but one in which a stop is commanded by itself: it counts in
-    full where nothing moves. Keys and defaults are those of a config's [command]; tracking_speed_m_s and tracking_turn_rad_s those
-    of [score.tracking]. A robot's forward axis is the one that points along +x in its start pose."""
+    full where nothing moves. Keys and defaults are those of [command], tracking_speed_m_s and tracking_turn_rad_s those
+    of [score.tracking]; what a config says of them is not read: pass it here. A robot's forward axis is the one that points along +x in its start pose."""
 
     DEFAULTS = {"stretch_s": 5.0, "least_speed_m_s": 0.0, "most_speed_m_s": 0.4, "most_turn_rad_s": 0.5, "straight_share": 0.2,
                 "stop_share": 0.1, "tracking_speed_m_s": 0.2, "tracking_turn_rad_s": 0.5}
@@ -42,9 +43,11 @@ class Commands:
     @classmethod
     def _checked(cls, settings, timestep_s):
         """All settings. ValueError where a config's [command] or [score.tracking] would be refused."""
+        if not isinstance(settings, Mapping):
+            raise ValueError(f"commands: {settings!r}: expected a dict")
         unknown = set(settings) - set(cls.DEFAULTS)
         if unknown:
-            raise ValueError(f"commands has {', '.join(sorted(unknown))}: expected {', '.join(cls.DEFAULTS)}")
+            raise ValueError(f"commands has {', '.join(sorted(map(str, unknown)))}: expected {', '.join(cls.DEFAULTS)}")
         for key, value in settings.items():
             least, most = cls.RANGES[key]
             if isinstance(value, bool) or not isinstance(value, numbers.Real) or not least <= value <= most:
@@ -145,6 +148,8 @@ class RobotsEnv(VectorEnv):
     def reset(self, *, seed=None, options=None):
         """All robots into the start pose. The simulation has no randomness; seed is for commands and np_random (spaces have
         seed() of their own)."""
+        if options:
+            raise ValueError(f"options: {options!r}: expected none: all robots begin anew (robots that are over do so by themselves)")
         super().reset(seed=seed)
         self.robots.reset()
         self._ticks[:], self._over[:] = 0, False

@@ -195,7 +195,7 @@ void refuse_empty_values(const CLI::App& app) {
     for (const CLI::Option* option : command->get_options())
       if (option->get_items_expected_max() > 0 &&
           std::ranges::find(option->results(), "") != option->results().end())
-        fail(ExitCode::bad_input, "{} \"\": the value is empty; expected: {}", option->get_name(),
+        fail(ExitCode::bad_input, "{} \"\": the value is empty; what it is for: {}", option->get_name(),
              option->get_description());
 }
 

@@ -36,6 +36,8 @@ ExitCode print_settings(const SettingsOptions& options) {
     fmt::print("{}", io::keys_to_markdown(morphology::describe_side_file));
     return ExitCode::ok;
   }
+  if (options.differing && files.size() < 2)
+    fail(ExitCode::bad_input, "--differing: settings that differ between configs; expected two or more");
   std::vector<experiment::Config> configs(1);
   for (const auto& file : files) configs.push_back(experiment::load_config(file, {}));
   std::vector<io::SettingsColumn> columns;

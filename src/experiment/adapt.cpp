@@ -111,9 +111,11 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
   const auto found = static_cast<std::uint32_t>(search.best());
   adaptation.cell = elites[found].cell;
   const auto before = intact.trials(best, 0, settings.test_trials, stop);
+  if (!before) return std::nullopt;
   const auto after = damaged.trials(best, 0, settings.test_trials, stop);
+  if (!after) return std::nullopt;
   const auto adapted = damaged.trials(found, 0, settings.test_trials, stop);
-  if (!before || !after || !adapted) return std::nullopt;
+  if (!adapted) return std::nullopt;
   adaptation.intact = *before;
   adaptation.damaged = *after;
   adaptation.adapted = *adapted;

@@ -94,7 +94,11 @@ Repertoire load_repertoire(const RunPaths& paths) {
   io::InputFile file(path);
   const auto& settings = config.search.map_elites;
   auto elites = search::read_elites(file, path.string(), settings.cell_count(), settings.descriptors.size());
-  return {std::move(config), std::move(problem), std::move(elites)};
+  std::error_code none;
+  record::Generations generations;
+  if (std::filesystem::exists(paths.generations, none))
+    generations = record::read_generations(paths.generations);
+  return {std::move(config), std::move(problem), std::move(elites), std::move(generations)};
 }
 
 std::string repertoire_json(const Repertoire& repertoire) {

@@ -12,6 +12,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "amble/search/elites.hpp"
 
 namespace amble::experiment {
@@ -21,6 +22,7 @@ struct Repertoire {
   Config config;
   Problem problem;
   search::Elites elites;
+  record::Generations generations;  ///< how the map filled; none where the run's table is missing
 };
 
 /// Whether a run of this config fills a map.

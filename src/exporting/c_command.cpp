@@ -5,14 +5,14 @@ namespace amble::exporting {
 namespace {
 
 constexpr std::string_view set_text =
-    R"(/* A number that is not finite changes nothing; others are limited to +- 100. */
-static void tell(float *told, float number) {
-  if (number - number == 0.0f) *told = number < -100.0f ? -100.0f : number > 100.0f ? 100.0f : number;
+    R"(static float within_100(float number) {
+  return number < -100.0f ? -100.0f : number > 100.0f ? 100.0f : number;
 }
 
 void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s) {
-  tell(&state->command_speed_m_s, speed_m_s);
-  tell(&state->command_turn_rad_s, turn_rad_s);
+  if (speed_m_s - speed_m_s != 0.0f || turn_rad_s - turn_rad_s != 0.0f) return;
+  state->command_speed_m_s = within_100(speed_m_s);
+  state->command_turn_rad_s = within_100(turn_rad_s);
   state->command_stop = state->command_speed_m_s == 0.0f && state->command_turn_rad_s == 0.0f ? 1.0f : 0.0f;
 }
 

@@ -198,7 +198,7 @@ float $p_self_test(void);
 
 constexpr std::string_view command =
     R"(/* Tells it a speed along its own forward axis, m/s, and a turn to the left, rad/s; from the next step on.
- * At first it is to stand still. */
+ * At first it is to stand still. Both are limited to +- 100; if one is not finite nothing changes. */
 void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s);
 )";
 

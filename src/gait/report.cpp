@@ -59,7 +59,7 @@ Json reason_of(const std::optional<Classification>& classification) {
 
 Json json_of(const LegGait& leg) {
   return {{"name", leg.name},
-          {"contact_share", leg.contact_share},
+          {"contact_share", json_of(leg.contact_share)},
           {"raw_touchdowns", leg.raw_touchdowns},
           {"touchdowns", leg.touchdowns},
           {"strides", leg.strides},

@@ -31,7 +31,7 @@ inline constexpr int longest_window = 5;
 /// One leg after the transient.
 struct LegGait {
   std::string name;
-  double contact_share = 0.0;            ///< of the time on the ground, [0, 1]
+  std::optional<double> contact_share;   ///< of the time on the ground, [0, 1]; none where no time counts
   std::int64_t raw_touchdowns = 0;       ///< rising edges of the sensor itself, in the whole trial
   std::int64_t late_raw_touchdowns = 0;  ///< of these, those after the transient
   std::int64_t touchdowns = 0;

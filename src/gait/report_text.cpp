@@ -65,22 +65,23 @@ void print_legs(const Report& report, Text text) {
   const bool nothing_counts = report.seconds <= report.settings.transient_s;
   const std::int64_t first_landing = report.settings.transient_s > 0.0 ? 0 : 1;
   const auto note = [&](const LegGait& leg) {
-    const bool down = leg.contact_share > 0.5, chatters = leg.late_raw_touchdowns > first_landing;
     if (leg.touchdowns > 0) return "";
-    if (nothing_counts) return "  all of it is --transient";
-    if (chatters) return down ? "  lifts for less than --debounce" : "  touches for less than --debounce";
-    return down ? "  never lifts" : "  never lands";
+    if (nothing_counts || !leg.contact_share) return "  all of it is --transient";
+    const bool chatters = leg.late_raw_touchdowns > first_landing;
+    if (*leg.contact_share == 1.0) return chatters ? "  lifts for less than --debounce" : "  never lifts";
+    if (*leg.contact_share == 0.0) return chatters ? "  touches for less than --debounce" : "  never lands";
+    return "  lifts, and does not land again";
   };
   fmt::format_to(text,
                  "\nleg    lands (sensor)  strides  stride s     sd  duty  ground  phase     R  drift/min\n");
   for (const LegGait& leg : report.legs) {
     const auto phase = leg.phase ? std::optional(leg.phase->phase) : std::nullopt,
                resultant = leg.phase ? std::optional(leg.phase->resultant) : std::nullopt;
-    fmt::format_to(text, "{:<5} {:>6} {:>8}  {:>7}  {:>8}  {:>5}  {:>4}  {:>5.0f}%  {:>5}  {:>4}  {:>9}{}\n",
+    fmt::format_to(text, "{:<5} {:>6} {:>8}  {:>7}  {:>8}  {:>5}  {:>4}  {:>6}  {:>5}  {:>4}  {:>9}{}\n",
                    leg.name, leg.touchdowns, fmt::format("({})", leg.raw_touchdowns), leg.strides,
                    number(leg.stride_s, 2), number(leg.stride_sd_s, 2), number(leg.duty_factor, 2),
-                   100.0 * leg.contact_share, number(phase, 2), number(resultant, 2),
-                   number(leg.drift_per_min, 3), note(leg));
+                   leg.contact_share ? fmt::format("{:.0f}%", 100.0 * *leg.contact_share) : "–",
+                   number(phase, 2), number(resultant, 2), number(leg.drift_per_min, 3), note(leg));
   }
   if (report.reference_leg >= 0)
     fmt::format_to(text, "phase: touch-downs after those of {}, in its strides\n",

@@ -79,12 +79,11 @@ std::string kept_text(const experiment::CorrectedMap& corrected) {
 }
 
 /// How the map filled; empty before the first round.
-std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& run) {
-  const auto generations = record::read_generations(experiment::RunPaths(run).generations);
-  if (generations.count() == 0) return {};
+std::string curves_of(const experiment::Repertoire& repertoire) {
+  if (repertoire.generations.count() == 0) return {};
   record::Objective objective = score::objective_of(repertoire.config.score);
   objective.title = "Objective";
-  return figures::fitness_figure(generations, figures::FigureSize::wide, objective);
+  return figures::fitness_figure(repertoire.generations, figures::FigureSize::wide, objective);
 }
 
 constexpr int usual_trials = 20;
@@ -175,7 +174,7 @@ std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
                              who + "; with the Shift key, beside the one that walks there already." +
                                  (corrected ? kept_text(*corrected) : ""),
                              corrected);
-  page.map->curves_svg = curves_of(repertoire, run);
+  page.map->curves_svg = curves_of(repertoire);
   std::vector<std::unique_ptr<io::ScratchFile>> recordings;
   for (const std::uint32_t number : chosen) {
     recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));

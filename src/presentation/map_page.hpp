@@ -21,7 +21,7 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire,
                              const std::optional<experiment::CorrectedMap>& corrected = {});
 
 /// A page with the map of a run, in which up to `walkers` cells can be chosen and then walk: the best first,
-/// then cells spread evenly over the map. `run`: its folder, for the curves and the recordings' origin.
+/// then cells spread evenly over the map. `run`: its folder, for the recordings' origin.
 /// Nothing if `stop` was set. Throws UserError: an empty map, one of centroids.
 std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
                                     const std::optional<experiment::CorrectedMap>& corrected,

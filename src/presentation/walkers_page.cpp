@@ -78,7 +78,10 @@ void WalkersPage::add_recording(const fs::path& file) {
 }
 
 void WalkersPage::add_recording(std::string_view bytes, const fs::path& file) {
-  const record::RecordingReader reader(std::string(bytes), file);
+  record::RecordingReader reader(std::string(bytes), file);
+  // All of it, under its own name: the copy's would say little where it is damaged.
+  for (std::vector<float> frame; reader.next(frame);) {
+  }
   const fs::path& kept = scratch_.emplace_back("walk.rec").path();
   io::write_file(kept, bytes);
   page_.walkers.push_back(recorded(kept));

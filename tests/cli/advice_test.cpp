@@ -78,6 +78,15 @@ TEST_F(Advice, AConfigForAnotherRobotIsGivenASubstrateOfItsJoints) {
                  "--set controller.substrate=auto");
 }
 
+TEST_F(Advice, SettingsDifferBetweenTwoConfigsAtLeast) {
+  for (const std::vector<std::string>& files : {std::vector<std::string>{}, {config}}) {
+    std::vector<std::string> arguments{"settings", "--differing"};
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    expect_refusal(arguments, ExitCode::bad_input,
+                   "--differing: settings that differ between configs; expected two");
+  }
+}
+
 TEST_F(Advice, AModelGivenForARobotIsSentToInit) {
   expect_refusal({"robot", source + "/robots/servo/servo.urdf"}, ExitCode::bad_input,
                  "run: amble robot --init " + source + "/robots/servo/servo.urdf");

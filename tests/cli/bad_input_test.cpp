@@ -53,7 +53,7 @@ TEST_F(BadInput, AnEmptyValueIsNamedWithWhatIsExpected) {
                                                {"trial", ""},
                                                {"gait", ""}};
   for (const auto& command : commands)
-    expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; expected: ");
+    expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; what it is for: ");
   EXPECT_FALSE(fs::exists("path.svg")) << "figures of no folder are drawn into the current one";
 }
 
@@ -389,7 +389,7 @@ TEST_F(BadInput, ViewOfWhatCannotBeShown) {
   ASSERT_EQ(amble({"trial", champion, "--record", recording}).exit_code, 0);
   const auto bytes = slurp(recording);
   spill(recording, bytes.substr(0, bytes.size() / 2));
-  expect_refusal({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: truncated");
+  expect_refusal({"view", recording, "-o", page}, ExitCode::bad_file, recording + ": truncated");
   spill(page, "a letter to a friend");
   expect_refusal({"view", champion, "-o", page}, ExitCode::bad_input, "page.html");
 }

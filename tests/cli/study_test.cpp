@@ -216,9 +216,9 @@ TEST_F(Study, NotesCommandsThatChampionsAreNotToldOrDoNotHear) {
 TEST_F(Study, InAFolderWithoutANameIsRefused) {
   const auto refused = amble({"study", (folder_ / "study.toml").string(), "--out", ""});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(
-      refused.err,
-      "amble: --out \"\": the value is empty; expected: Folder of the study; goes on with what is there\n");
+  EXPECT_EQ(refused.err,
+            "amble: --out \"\": the value is empty; what it is for: Folder of the study; goes on with what "
+            "is there\n");
 }
 
 TEST_F(Study, DoesNotGoIntoAFolderThatHoldsOtherFolders) {

@@ -254,6 +254,8 @@ int main(void) {
   walker_set_command(&state, 0.2f, 0.1f);
   walker_step(&state, &in, &targets);
   walker_set_command(&state, NAN, INFINITY);
+  walker_set_command(&state, 0.7f, NAN);
+  walker_set_command(&state, -INFINITY, 0.7f);
   walker_step(&state, &in, &targets);
   walker_set_command(&state, 1e9f, -1e9f);
   printf("%g %g\n", state.command_speed_m_s, state.command_turn_rad_s);

@@ -188,8 +188,23 @@ TEST(GaitMeter, AFootThatLandsInTheTransientAloneIsNotSaidToTouchTooBriefly) {
   EXPECT_NE(table.find("never lifts"), std::string::npos) << table;
   EXPECT_EQ(table.find("--debounce"), std::string::npos) << table;
   for (int k = 0; k < 150; ++k) ends_early.add({1.0f, 1.0f, 1.0f, k % 60 < 30 ? 1.0f : 0.0f});
-  table = report_table(ends_early.finish());
+  const Report none = ends_early.finish();
+  table = report_table(none);
   EXPECT_NE(table.find("all of it is --transient"), std::string::npos) << table;
+  EXPECT_EQ(table.find("never"), std::string::npos) << table;
+  EXPECT_FALSE(none.legs[0].contact_share) << "nothing was looked at";
+  EXPECT_NE(report_json(none).find("\"contact_share\": null"), std::string::npos);
+}
+
+TEST(GaitMeter, AFootThatLiftsAtTheEndIsNotSaidToNeverLift) {
+  Feeder feeder;
+  for (int k = 0; k < 1000; ++k) feeder.add({k < 900 ? 1.0f : 0.0f, k < 400 ? 1.0f : 0.0f, 1.0f, 1.0f});
+  const std::string table = report_table(feeder.finish());
+  const std::string lifts = "lifts, and does not land again";
+  const std::size_t first = table.find(lifts);
+  ASSERT_NE(first, std::string::npos) << table;
+  EXPECT_NE(table.find(lifts, first + 1), std::string::npos) << table;
+  EXPECT_EQ(table.find("--debounce"), std::string::npos) << table;
   EXPECT_EQ(table.find("never"), std::string::npos) << table;
 }
 

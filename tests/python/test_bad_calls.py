@@ -38,7 +38,8 @@ def calls(config, run, recording):
     endless_table["size"] = endless_table
     bad_overrides = [3, "population.size=3", [], {"population.size": "many"}, {"no.such": 1}, {1: 2}, {"engine": None},
                      {"": 1}, {"population.size": object()}, {"population..size": 1}, {"population.size": float("nan")},
-                     {"population.size": np.longdouble(3)}, {"population.size": endless}, {"population": endless_table}]
+                     {"population.size": np.longdouble(3)}, {"population.size": endless}, {"population": endless_table},
+                     {"population.size=7 # more": 9}, {"damage.parts": [{'kind = "missing", leg': "FL"}]}, {"name": "\ud800"}]
     bad_jobs = [0, -1, 5000] + NO_NUMBER
     bad_genomes = [None, 3, [1], ["a"], [genome], [None], "text", [genomes[0], 3], np.zeros(3), object()]
     bad_genome = [None, 3, [], {}, {"nodes": []}, {"links": []}, {**genome, "nodes": 3}, {**genome, "links": [3]}, "text",

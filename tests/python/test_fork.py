@@ -155,6 +155,7 @@ def test_a_pickled_search_goes_on_to_the_bit(preset, overrides):
         search.tell(amble.evaluate(search, search.ask()))
     other, twin = pickle.loads(pickle.dumps(search)), copy.deepcopy(search)
     assert other.round == 3 and other.config["seed"] == 9
+    assert any(search.metrics.values()) and other.metrics == twin.metrics == search.metrics
     for _ in range(2):
         assert other.ask() == search.ask() == twin.ask()
         for each in (search, other, twin):
@@ -186,6 +187,10 @@ def test_pickles_need_no_files_and_keep_everything(run, recording, tmp_path, mon
     assert np.array_equal(walk.frames, recording.frames) and amble.gait(walk) == amble.gait(recording)
     with pytest.raises(TypeError):
         pickle.dumps(amble.Robots(ROBOT))
+    for each in (config, champion, run, walk, amble.Robots(ROBOT)):
+        for protocol in (0, 1):  # which make an instance of the base of all classes
+            with pytest.raises(TypeError, match="protocol of 2 or more"):
+                pickle.dumps(each, protocol)
 
 
 def test_spawned_processes_take_what_can_be_pickled(run, search):

@@ -135,6 +135,16 @@ def test_commands_are_drawn_by_the_seed_and_anew_in_each_stretch(adapter):
     assert np.abs(one[..., 1]).max() <= 0.5 and one[..., 0].min() >= 0.0 and one[..., 0].max() <= 0.4
 
 
+def test_what_a_reset_and_commands_do_not_know_is_refused(adapter):
+    env = adapter.RobotsEnv(ROBOT, 2)
+    env.reset(options={})
+    with pytest.raises(ValueError, match="all robots begin anew"):
+        env.reset(options={"reset_mask": np.array([True, False])})
+    for commands in ([], 3, {1: 2}):
+        with pytest.raises(ValueError, match="commands"):
+            adapter.RobotsEnv(ROBOT, 1, commands=commands)
+
+
 def test_a_command_that_there_is_not_is_refused(adapter):
     with pytest.raises(ValueError, match="commands has speed: expected stretch_s, "):
         adapter.RobotsEnv(ROBOT, 1, commands={"speed": 1.0})

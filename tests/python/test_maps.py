@@ -1,5 +1,6 @@
 import json
 import os
+import shutil
 import subprocess
 
 import amble
@@ -59,12 +60,36 @@ def test_the_elite_of_a_cell_is_a_champion(filled, tmp_path):
 def test_a_map_is_saved_by_the_ending_of_its_name(filled, tmp_path):
     gaits = amble.Map(filled)
     for name in ("map.html", "map.svg", "map.csv", "map.json"):
-        assert gaits.save(tmp_path / name, trials=0, walkers=2) == str(tmp_path / name)
-        walkers = ("--walkers", 2) if name.endswith(".html") else ()
-        said_by_program("repertoire", filled.folder, "-o", tmp_path / ("said-" + name), "--retest", 0, *walkers)
+        walkers = 2 if name.endswith(".html") else None
+        assert gaits.save(tmp_path / name, trials=0, walkers=walkers) == str(tmp_path / name)
+        said_by_program("repertoire", filled.folder, "-o", tmp_path / ("said-" + name), "--retest", 0, *(("--walkers", 2) if walkers else ()))
         assert (tmp_path / name).read_bytes() == (tmp_path / ("said-" + name)).read_bytes(), name
     with pytest.raises(amble.Error, match="expected FILE.html"):
         gaits.save(tmp_path / "map.png")
+    with pytest.raises(ValueError, match="trials: a .json file holds what the map says"):
+        gaits.save(tmp_path / "other.json", trials=2)
+    with pytest.raises(ValueError, match="walkers: only for a page"):
+        gaits.save(tmp_path / "other.svg", walkers=2)
+
+
+def test_a_map_needs_its_run_no_more(filled, tmp_path):
+    shutil.copytree(filled.folder, tmp_path / "run")
+    gaits = amble.Map(tmp_path / "run")
+    gaits.save(tmp_path / "before.html", trials=0, walkers=1)
+    shutil.rmtree(tmp_path / "run")
+    gaits.save(tmp_path / "after.html", trials=0, walkers=1)
+    assert (tmp_path / "after.html").read_bytes() == (tmp_path / "before.html").read_bytes()
+
+
+def test_trials_that_are_all_the_same_are_noted(tmp_path):
+    config = amble.load_config(SOURCE / "configs/repertoire/quadruped.toml", {
+        **SMALL_MAP, "generations": 1, "search.map_elites.trials": 1, "search.map_elites.reevaluate_share": 0.0,
+        "search.map_elites.challenger_share": 0.0, "champion.episodes": 0, "noise": {
+            "push_m_s": 0.0, "start_joint_rad": 0.0, "start_tilt_rad": 0.0, "start_height_m": 0.0, "touch_flip_probability": 0.0,
+            "joint_sensor_rad": 0.0, "attitude_sensor_rad": 0.0, "latency_ticks": 0}})
+    gaits = amble.Map(amble.evolve(config, 1, out=tmp_path / "still"))
+    with pytest.warns(UserWarning, match="trials: the search was without noise"):
+        assert gaits.retest(5)["trials"] == 1
 
 
 def test_a_damaged_robot_finds_a_gait_as_on_the_command_line(filled, tmp_path):

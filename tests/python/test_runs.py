@@ -1,9 +1,12 @@
 import enum
 import json
 import os
+import shutil
 import signal
 import subprocess
 import threading
+import types
+from pathlib import Path
 
 import amble
 import numpy as np
@@ -36,6 +39,16 @@ def test_generations_are_numpy_columns_of_one_length(run):
     assert all(column.dtype == np.float64 and column.shape == (4,) for column in table.values())
     assert np.array_equal(table["generation"], [0, 1, 2, 3])
     assert np.array_equal(table["best_so_far"], np.maximum.accumulate(table["best"]))
+
+
+def test_a_row_that_was_being_written_is_no_generation(run, tmp_path):
+    shutil.copytree(run.folder, tmp_path / "run")
+    table = tmp_path / "run" / "generations.csv"
+    *rows, last = table.read_text().splitlines(keepends=True)
+    for half in (last[:1], last[:5], last[:-1]):
+        table.write_text("".join(rows) + half)
+        kept = amble.Run(tmp_path / "run").generations()
+        assert len(kept["best"]) == len(rows) - 1 and not np.isnan(kept["mean"]).any()
 
 
 def test_a_callback_gets_each_generation(config, tmp_path):
@@ -179,6 +192,18 @@ def test_a_gait_of_more_seconds_than_were_recorded_is_refused_as_by_the_command_
     with pytest.raises(amble.Error, match="seconds = 100: it is 2 s long") as refused:
         amble.gait(recording, seconds=100)
     assert refused.value.exit_code == code and said == f"amble: {refused.value}\n"
+
+
+def test_gait_takes_all_that_walks(run, tmp_path):
+    assert amble.gait(run.folder) == amble.gait(run) == amble.gait(run.champion())
+    run.champion().save(tmp_path / "walker.json")
+    assert amble.gait(tmp_path / "walker.json") == amble.gait(run)
+
+
+def test_overrides_may_be_any_mapping_and_paths_be_paths():
+    overrides = types.MappingProxyType({"population": types.MappingProxyType({"size": 30}), "robot": amble.robots()["quadruped"]})
+    config = amble.load_config(CONFIG, overrides)
+    assert config["population.size"] == 30 and Path(config["robot"]).samefile(amble.robots()["quadruped"])
 
 
 def test_a_champion_is_not_saved_among_those_of_a_run(run, tmp_path):
