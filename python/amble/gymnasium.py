@@ -20,8 +20,9 @@ class Commands:
     """What each robot is told, drawn anew for each stretch, and how well it obeys, second by second.
 
     A second is judged as the quantity `tracking` does (docs/SCORES.md), but one in which a stop is commanded by itself: it counts in
-    full where nothing moves. Keys and defaults are those of [command], tracking_speed_m_s and tracking_turn_rad_s those
-    of [score.tracking]; what a config says of them is not read: pass it here. A robot's forward axis is the one that points along +x in its start pose."""
+    full where nothing moves. Keys and defaults are those of [command], tracking_speed_m_s and tracking_turn_rad_s those of
+    [score.tracking]; what a config says of them is not read: pass it here. A robot's forward axis is the one that points along +x in its
+    start pose."""
 
     DEFAULTS = {"stretch_s": 5.0, "least_speed_m_s": 0.0, "most_speed_m_s": 0.4, "most_turn_rad_s": 0.5, "straight_share": 0.2,
                 "stop_share": 0.1, "tracking_speed_m_s": 0.2, "tracking_turn_rad_s": 0.5}

@@ -16,6 +16,7 @@
 #include "amble/figures/robot_figure.hpp"
 #include "amble/figures/style_sheet.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/file_kind.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/morphology/side_file.hpp"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 /// Before anything is computed: the model of a robot is not written over the one that it is read from.
 void check_model_output(const fs::path& robot_file, const fs::path& mjcf) {
   check_output(mjcf, morphology::written_mjcf_start, "an MJCF model");
-  if (robot_file.extension() == ".toml" &&
+  if (io::file_kind(robot_file) == io::FileKind::side_file &&
       resolved(mjcf) == resolved(morphology::read_side_file(robot_file).model))
     fail(ExitCode::bad_input, "--mjcf {}: {} is made from it; expected another file", mjcf.string(),
          robot_file.string());
