@@ -55,4 +55,9 @@ class Ground {
   double highest_m_;
 };
 
+/// What Ground::clearance_m of such a surface is at least: below and around what touches, all is as high as
+/// the highest node there. Takes far less than making a Ground.
+double least_clearance_m(const HeightField& surface, const robot::RobotSpec& robot,
+                         std::span<const robot::Pose> poses);
+
 }  // namespace amble::ground

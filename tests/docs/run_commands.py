@@ -49,7 +49,7 @@ def shortened(command):
     command = re.sub(r"(amble evolve [^&|;]*?)(?= *(&&|$))",
                      lambda found: re.sub(r" --generations \d+", "", found[1]) + f" {CUT} --generations 3", command)
     command = re.sub(r"(--seconds [0-9,]*)300", r"\g<1>30", command)
-    command = re.sub(r"(amble resume \S+) --generations \d+", r"\1 --generations 4", command)
+    command = re.sub(r"(amble resume +\S+) --generations \d+", r"\1 --generations 4", command)
     return re.sub(r"amble study +(?!studies/smoke)(\S+\.toml)((?:(?! --slurm| --status)[^&|;])*)$", r"amble study \1\2 --status", command)
 
 
@@ -119,6 +119,7 @@ def main():
     wanted = sys.argv[3:]
     not_run = reasons(Path(__file__).with_name("not_run.txt"))
     used, failed, ran, tables = set(), 0, 0, 0
+    reported = set()  # pages that stand alone give one report again and again: its tables stay
     with tempfile.TemporaryDirectory() as folder:
         workspace = Path(folder)
         prepare(workspace, program, source)
@@ -133,9 +134,13 @@ def main():
                 if excuse:
                     used.add(excuse)
                     continue
+                if command in reported:
+                    continue
                 began = time.monotonic()
                 done = run(shortened(command), workspace, program)
                 ran += 1
+                if re.match("amble report results/(?!smoke)", command) and done.returncode == 0:
+                    reported.add(command)
                 print(f"{time.monotonic() - began:5.1f} s  {name}: {command.splitlines()[0]}", flush=True)
                 if done.returncode != 0:
                     failed += 1

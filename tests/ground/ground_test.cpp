@@ -98,5 +98,30 @@ TEST(Ground, IsNotTouchedByWhatDoesNotCollide) {
   }
 }
 
+TEST(Ground, HasAClearanceOfAtLeastTheLeastThatIsKnownBeforeItIsMade) {
+  const robot::RobotSpec robot = quadruped();
+  const auto poses = robot::start_poses(robot);
+  const double plane_m = robot::clearance_m(robot, poses);
+  int on_flat = 0, inside = 0;
+  for (const char* const kind : {"hills", "stones", "stairs"})
+    for (const double cell_m : {0.02, 0.07})
+      for (int part = 1; part <= 12; ++part) {
+        Settings settings;
+        settings.kind = kind;
+        settings.height_m = 3.0;
+        settings.cell_m = cell_m;
+        settings.start_radius_m = 0.1 * part;
+        settings.seed = part;
+        const HeightField surface = make_field(settings, {});
+        const double least_m = least_clearance_m(surface, robot, poses);
+        const double clearance_m = Ground(surface, robot).clearance_m(robot, poses);
+        EXPECT_LE(least_m, clearance_m + 1e-6) << kind << " " << settings.start_radius_m;
+        on_flat += std::abs(least_m - plane_m) < 1e-6 && std::abs(clearance_m - plane_m) < 1e-6;
+        inside += clearance_m < -0.5;
+      }
+  EXPECT_GT(on_flat, 10);
+  EXPECT_GT(inside, 10);
+}
+
 }  // namespace
 }  // namespace amble::ground
