@@ -260,7 +260,7 @@ control order (docs/CONVENTIONS.md). Several threads may use one object; their c
           py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
           py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(), py::arg("forces") = false,
           R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config, of which damage and the ground's
-slope and friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode", "mujoco" or "mujoco-model".
+slope and friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode", "ode-variant", "mujoco" or "mujoco-model".
 timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not depend on it. forces:
 measure torque_nm and load_n, too, which changes nothing else. All robots stand in their start pose. Raises Error.)")
       .def(

@@ -328,7 +328,7 @@ steps), referees (the same by engine).)")
            py::arg("steering") = py::none(),
            R"(Walks again, without noise; as in its evolution unless an argument says otherwise.
 
-seconds: length, s. engine: "ode", "batch", "mujoco" or "mujoco-model". record: path of a recording to write.
+seconds: length, s. engine: "ode", "ode-variant", "batch", "mujoco" or "mujoco-model". record: path of a recording to write.
 command: what it is told, "SPEED,TURN[,SECONDS]; ..." in m/s, rad/s to the left and s. steering: gains by which it is
 steered by hand, "turn_gain = 1.5, full_speed_m_s = 0.4" (docs/STEERING.md).
 Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name), and of one that is told
@@ -342,7 +342,7 @@ seconds, engine, command, steering: as in trial(). level: "own" (the noise of it
 or "milli" (starts that differ by so many radians); default: its own noise, or "milli" without any.
 noise: path of a config file whose [noise] disturbs instead. trials: their number, at most 100,000 (default: 64, or 16 in
 engines that run one at a time). jobs: workers.
-Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
+Returns a dict: level ("" with noise), distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
 fell_share, trials (a list of dicts as trial() returns them, without events).)")
       .def("__repr__", [](const ReadableChampion& self) {
         return text_of(fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,

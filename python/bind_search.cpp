@@ -415,7 +415,7 @@ Its facts are of the config's objective, whatever fitness tell() was given, and 
              py::arg("engine") = py::none(), py::arg("jobs") = py::none(), py::arg("generation") = py::none(),
              R"(Lets each genome walk, and returns (objective, behaviour): float64 [n] and float32 [n, d].
 
-problem: Problem, Search, Config or path. genomes: Genomes that fit it. engine: "ode", "batch", "mujoco" or "mujoco-model" (default:
+problem: Problem, Search, Config or path. genomes: Genomes that fit it. engine: "ode", "ode-variant", "batch", "mujoco" or "mujoco-model" (default:
 the config's). jobs: workers (default: processors); results do not depend on it. generation: whose noise and ground
 (default: the round of a Search, else 0). objective: in m unless the config scores something else. behaviour: the path
 over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, the quantities of the map under

@@ -33,11 +33,11 @@ class Commands:
 
     def __init__(self, settings, robots, random):
         self._settings, self._robots, self.random = self._checked(settings, robots.timestep_s), robots, random
-        self._second = round(1.0 / robots.timestep_s)
         self._stretch = max(1, round(self._settings["stretch_s"] / robots.timestep_s))
         count = len(robots)
         self.told = np.zeros((count, 2), np.float32)  # speed along its forward axis, m/s, and turn to the left, rad/s
         self._sum, self._begin_m = np.zeros((count, 2)), np.zeros((count, 2))
+        self._ticks = np.zeros(count, int)  # since the second's begin, of which _sum is the sum of what was told
         self._yaw, self._heading, self._turned = np.zeros(count), np.zeros(count), np.zeros(count)
         self.begin(np.ones(count, bool))
 
@@ -65,7 +65,7 @@ class Commands:
     def begin(self, which):
         """These robots stand in the start pose."""
         self._draw(which)
-        self._sum[which], self._turned[which] = 0.0, 0.0
+        self._sum[which], self._turned[which], self._ticks[which] = 0.0, 0.0, 0
         self._begin_m[which] = self._robots.com_m[which, :2]
         self._yaw[which] = self._robots.attitude_rad[which, 2]
         self._heading[which] = 0.0
@@ -84,23 +84,28 @@ class Commands:
         """After a tick, the `ticks`-th of each robot's episode (0: it has just begun): its reward, which a second gives in its last
         tick."""
         self._sum[ticks > 0] += self.told[ticks > 0]
+        self._ticks[ticks > 0] += 1
         yaw = self._robots.attitude_rad[:, 2].astype(np.float64)
         self._turned += (yaw - self._yaw + np.pi) % (2.0 * np.pi) - np.pi
         self._yaw = yaw
-        rewards, over = np.zeros(len(ticks)), (ticks % self._second == 0) & (ticks > 0)
+        rewards, over = np.zeros(len(ticks)), (ticks > 0) & (self._seconds(ticks) > self._seconds(ticks - 1))
         if over.any():
             rewards[over] = self._obeyed(over)
             self._begin_m[over] = self._robots.com_m[over, :2]
             self._heading[over] += self._turned[over]
-            self._sum[over], self._turned[over] = 0.0, 0.0
+            self._sum[over], self._turned[over], self._ticks[over] = 0.0, 0.0, 0
         renewed = (ticks % self._stretch == 0) & (ticks > 0)
         if renewed.any():
             self._draw(renewed)
         return rewards
 
+    def _seconds(self, ticks):
+        """Whole seconds after so many ticks, as trials count them: one ends with the tick in which it is complete."""
+        return np.floor(ticks * self._robots.timestep_s + 1e-9)
+
     def _obeyed(self, over):
         """How well the second that is over obeyed, 0 … 1; 0 is what standing still is worth where there was something to do."""
-        told = self._sum[over] / self._second
+        told = self._sum[over] / self._ticks[over, None]
         v0, w0 = self._settings["tracking_speed_m_s"], self._settings["tracking_turn_rad_s"]
         heading = self._heading[over] + 0.5 * self._turned[over]  # in the mean of the second's begin and end
         wanted_m = told[:, :1] * np.stack([np.cos(heading), np.sin(heading)], axis=1)

@@ -46,9 +46,10 @@ bool takes_files(const OptionSummary& option) {
 std::string bash_value(const std::string& command, const OptionSummary& option) {
   std::vector<std::string> patterns;
   for (const std::string& name : option.names) patterns.push_back(fmt::format("{}:{}", command, name));
-  const std::string reply =
-      takes_files(option) ? "_amble_files"
-                          : fmt::format("_amble_words {}", io::shell_quoted(joined(option.choices, " ")));
+  const std::string reply = takes_files(option)
+                                ? "_amble_files"
+                                : fmt::format("{} {}", option.is_list ? "_amble_items" : "_amble_words",
+                                              io::shell_quoted(joined(option.choices, " ")));
   return fmt::format("    {}) {}; return ;;\n", joined(patterns, " | "), reply);
 }
 
@@ -61,7 +62,8 @@ std::string zsh_option(const OptionSummary& option) {
       : option.choices.empty()    ? ":value: "
       : option.choices.front().ends_with('=')
           ? fmt::format(":setting:{{compadd -S \"\" -- {}}}", joined(option.choices, " "))
-          : fmt::format(":value:({})", joined(option.choices, " "));
+      : option.is_list ? fmt::format(":value:_values -s , value {}", joined(option.choices, " "))
+                       : fmt::format(":value:({})", joined(option.choices, " "));
   std::string entries;
   for (const std::string& name : option.names)
     entries += " \\\n        " + io::shell_quoted(fmt::format("*{}[{}]{}", name, what, value));
@@ -76,7 +78,8 @@ std::string fish_option(const std::string& condition, const OptionSummary& optio
     line += " -r -F";
   else if (option.value != Value::none)
     line += " -x";
-  if (!option.choices.empty()) line += " -a " + io::shell_quoted(joined(option.choices, " "));
+  if (const std::string all = joined(option.choices, " "); !all.empty())
+    line += " -a " + io::shell_quoted(option.is_list ? fmt::format("(__fish_append , {})", all) : all);
   return line + " -d " + io::shell_quoted(option.what) + "\n";
 }
 
@@ -85,6 +88,12 @@ _amble_words() {
   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$word")
   # Behind a key comes its value.
   if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace; fi
+}
+_amble_items() {
+  # Behind the last comma.
+  local before=''
+  if [[ $word == *,* ]]; then before=${word%,*},; fi
+  mapfile -t COMPREPLY < <(compgen -P "$before" -W "$1" -- "${word##*,}")
 }
 _amble_files() {
   compopt -o filenames
@@ -151,6 +160,7 @@ OptionSummary summary_of(const CLI::Option& option) {
   // "COMMANDS|FILE": what is typed, or a file.
   const bool or_file = type.ends_with("|FILE");
   if (!or_file) summary.choices = type == key_value ? assignable_keys() : choices_of(type);
+  summary.is_list = option.get_delimiter() == ',';
   if (option.get_items_expected_max() > 0)
     summary.value = or_file || type.starts_with("TEXT") ? Value::file : Value::other;
   return summary;
@@ -176,6 +186,11 @@ ProgramSummary summary_of(const CLI::App& app) {
         {.name = command->get_name(), .what = command->get_description(), .options = {}, .arguments = {}});
     summarise(*command, program.commands.back().options, &program.commands.back().arguments);
   }
+  // What it explains are these commands.
+  const auto help = std::ranges::find(program.commands, std::string_view("help"), &CommandSummary::name);
+  if (help != program.commands.end() && !help->arguments.empty())
+    for (const CommandSummary& command : program.commands)
+      help->arguments.front().choices.push_back(command.name);
   return program;
 }
 

@@ -17,6 +17,7 @@ struct OptionSummary {
   std::string what;                ///< one line
   Value value = Value::none;
   std::vector<std::string> choices;  ///< all values there are; empty: any
+  bool is_list = false;              ///< takes several values with commas between them
 };
 
 struct CommandSummary {

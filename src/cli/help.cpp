@@ -195,8 +195,8 @@ void refuse_empty_values(const CLI::App& app) {
     for (const CLI::Option* option : command->get_options())
       if (option->get_items_expected_max() > 0 &&
           std::ranges::find(option->results(), "") != option->results().end())
-        fail(ExitCode::bad_input, "{} \"\": the value is empty; what it is for: {}", option->get_name(),
-             option->get_description());
+        fail(ExitCode::bad_input, "{} \"\": the value is empty; expected {}; what it is for: {}",
+             option->get_name(), value_name(option->get_type_name()), option->get_description());
 }
 
 UserError usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {

@@ -41,8 +41,10 @@ class Reality {
   /// Mean objective of an elite over `count` trials, from the `first`-th of those unseen during evolution.
   std::optional<double> trials(std::uint32_t number, int first, int count, const std::atomic<bool>& stop) {
     const neat::Genome genome = neat::expand(repertoire_.elites[number].genome, "archive.bin");
-    const auto scenarios = unseen_scenarios(problem_, repertoire_.config.seed, first, count, ground_.get());
-    const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios, ground_);
+    const auto scenarios =
+        unseen_scenarios(problem_, repertoire_.config.seed, first, count, ground_.get(), stop);
+    if (!scenarios) return std::nullopt;
+    const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, *scenarios, ground_);
     if (!result) return std::nullopt;
     return objectives(problem_, *result).front();
   }

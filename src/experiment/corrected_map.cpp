@@ -69,10 +69,11 @@ std::optional<CorrectedMap> correct_map(const Repertoire& repertoire, int trials
     genomes.push_back(neat::expand(elites[i].genome, "archive.bin"));
 
   const auto ground = problem.make_ground(ground_of(episode_key(EpisodeSet::unseen, config.seed)));
-  const auto scenarios = unseen_scenarios(problem, config.seed, 0, trials, ground.get());
+  const auto scenarios = unseen_scenarios(problem, config.seed, 0, trials, ground.get(), stop);
+  if (!scenarios) return std::nullopt;
   const auto behaviour = config.make_behaviour(&problem.robot);
   Evaluator evaluator(problem, behaviour->path(), jobs, behaviour->measures());
-  const auto result = evaluator.evaluate(genomes, stop, scenarios, ground);
+  const auto result = evaluator.evaluate(genomes, stop, *scenarios, ground);
   if (!result) return std::nullopt;
 
   const auto objectives = experiment::objectives(problem, *result);

@@ -53,7 +53,7 @@ TEST_F(BadInput, AnEmptyValueIsNamedWithWhatIsExpected) {
                                                {"trial", ""},
                                                {"gait", ""}};
   for (const auto& command : commands)
-    expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; what it is for: ");
+    expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; expected ");
   EXPECT_FALSE(fs::exists("path.svg")) << "figures of no folder are drawn into the current one";
 }
 

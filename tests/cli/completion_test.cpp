@@ -73,6 +73,14 @@ TEST_F(BashCompletion, OffersValuesThatAreKnown) {
   EXPECT_EQ(offered({"amble", "trial", "--engine", "="}), offered({"amble", "trial", "--engine", ""}));
   EXPECT_THAT(offered({"amble", "compare", "x", "--format", "m"}), ElementsAre("markdown"));
   EXPECT_THAT(offered({"amble", "completion", ""}), UnorderedElementsAre("bash", "zsh", "fish"));
+  EXPECT_THAT(offered({"amble", "help", "comp"}), UnorderedElementsAre("compare", "completion"));
+}
+
+TEST_F(BashCompletion, OffersEachValueOfAList) {
+  EXPECT_THAT(offered({"amble", "compare", "x", "--engines", "b"}), ElementsAre("batch"));
+  EXPECT_THAT(offered({"amble", "compare", "x", "--engines", "ode,batch,mujoco-"}),
+              ElementsAre("ode,batch,mujoco-model"));
+  EXPECT_THAT(offered({"amble", "compare", "x", "--engines", "=", "ode,"}), Contains("ode,batch"));
 }
 
 TEST_F(BashCompletion, OffersTheKeysOfSettings) {

@@ -217,7 +217,8 @@ TEST_F(Study, InAFolderWithoutANameIsRefused) {
   const auto refused = amble({"study", (folder_ / "study.toml").string(), "--out", ""});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.err,
-            "amble: --out \"\": the value is empty; what it is for: Folder of the study; goes on with what "
+            "amble: --out \"\": the value is empty; expected PATH; what it is for: Folder of the study; goes "
+            "on with what "
             "is there\n");
 }
 

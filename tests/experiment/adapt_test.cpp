@@ -34,7 +34,7 @@ double mean_of(const Problem& problem, const Repertoire& map, std::uint32_t numb
   judged.noise.score = trial::EpisodeScore::mean;
   Evaluator evaluator(judged, record::PathSampling(), 1);
   const std::vector<neat::Genome> genome{neat::expand(map.elites[number].genome, "elite")};
-  const auto scenarios = unseen_scenarios(judged, map.config.seed, first, count, nullptr);
+  const auto scenarios = unseen_scenarios(judged, map.config.seed, first, count, nullptr, unstopped).value();
   return objectives(judged, *evaluator.evaluate(genome, unstopped, scenarios)).front();
 }
 

@@ -26,7 +26,7 @@ struct Tried {
 std::vector<Tried> try_again(const Repertoire& map, int episodes) {
   Problem problem = map.problem;
   problem.noise.score = trial::EpisodeScore::mean;
-  const auto scenarios = unseen_scenarios(problem, map.config.seed, 0, episodes, nullptr);
+  const auto scenarios = unseen_scenarios(problem, map.config.seed, 0, episodes, nullptr, unstopped).value();
   const auto behaviour = map.config.make_behaviour(&problem.robot);
   const auto cells = search::make_cells(map.config.search.map_elites);
   Evaluator evaluator(problem, behaviour->path(), 1, behaviour->measures());

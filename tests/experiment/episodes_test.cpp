@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 
+#include "amble/experiment/plan/typical_level.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
@@ -54,6 +56,14 @@ TEST(Episodes, ThatEndInAFallCountForTheShareThatIsSet) {
   }
   EXPECT_EQ(objectives(problem_of(trial::EpisodeScore::mean, 0.5), result), (std::vector<double>{3.0}));
   EXPECT_EQ(objectives(problem_of(trial::EpisodeScore::mean, 0.0), result), (std::vector<double>{2.0}));
+}
+
+TEST(Episodes, UnseenOnesAreNotDrawnOnceTheyAreNoLongerWanted) {
+  Problem problem = small_problem();
+  problem.noise = typical_level(problem, "milli").noise;
+  const std::atomic<bool> stopped = true;
+  EXPECT_EQ(unseen_scenarios(problem, 1, 0, 3, nullptr, unstopped).value().size(), 3U);
+  EXPECT_FALSE(unseen_scenarios(problem, 1, 0, 3, nullptr, stopped));
 }
 
 TEST(Episodes, AreScoredAsTheConfigSays) {

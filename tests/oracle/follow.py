@@ -219,13 +219,15 @@ class Targets:
         """Target and tolerance, rad. `reshaped`: amplitudes and shifts of a mixed substrate by joint's name, or None."""
         lower, upper = self.limits[joint]
         jumped = leg.timer != leg.continued_timer
-        both = [self.patterns.shifted_rad(joint, timer, self.modulation, sensed) for timer in (leg.continued_timer, leg.timer)]
+        timers = (leg.continued_timer, leg.timer) if jumped else (leg.timer,)
+        both = [self.patterns.shifted_rad(joint, timer, self.modulation, sensed) for timer in timers]
         if reshaped:
             amplitude, shift = (of_joint[self.patterns.joints[joint]] for of_joint in reshaped)
             middle = self.patterns.middle_rad[joint]
             both = [y + (y - middle) * amplitude + shift * 0.5 * (upper - lower) for y in both]
             self.events["reshaped"] += abs(shift) + abs(amplitude) > 0.01
-        continued_rad, present_rad = (min(max(y, lower), upper) for y in both)
+        limited = [min(max(y, lower), upper) for y in both]
+        continued_rad, present_rad = limited[0], limited[-1]
         expected, tolerance = self.seams[joint].next(continued_rad, present_rad, jumped)
         self.events["shift"] += any(abs(self.modulation.shift_rad(joint, i, 0, s)) > 0.01 for i, s in enumerate(sensed))
         self.events["jump"] += jumped

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from supg import STOPPED, Leg
+from supg import STOPPED, Leg, between_ticks
 
 PARTS = 1 << 14
 
@@ -39,6 +39,8 @@ class Modulation:
                 rate = self._output(patterns.joints[joints[0]], "offset", [0.0], of_rate, -1)[0]
                 self.rates[i].append(self.settings["rate"] * rate)
 
+        self._shifts_rad_by_tick = [[rows.tolist() for rows in of_sensor] for of_sensor in self.shifts_rad]
+
     def _only(self, sensor, says):
         return [says if i == sensor else 0.0 for i in range(len(self.names))]
 
@@ -48,8 +50,9 @@ class Modulation:
 
     def shift_rad(self, joint, sensor, timer, s):
         """What a sensor that says s shifts a target by, at a timer that need not be whole."""
-        ticks = np.arange(self.patterns.period_ticks + 1)
-        return np.interp(s, self.levels, [np.interp(timer, ticks, row) for row in self.shifts_rad[sensor][joint]])
+        at_levels = [between_ticks(row, timer) for row in self._shifts_rad_by_tick[sensor][joint]]
+        # Levels are equally far from each other.
+        return between_ticks(at_levels, (s - self.levels[0]) / (self.levels[1] - self.levels[0]))
 
     def sensed(self, leg, senses, frame):
         """What the sensors of a leg say in a frame."""

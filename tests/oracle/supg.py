@@ -9,6 +9,12 @@ from cppn import Cppn
 STOPPED = -1
 
 
+def between_ticks(values, timer):
+    """What a list with a value for each tick says at a timer that need not be whole."""
+    tick = min(int(timer), len(values) - 2)
+    return values[tick] + (timer - tick) * (values[tick + 1] - values[tick])
+
+
 class Patterns:
     """What a champion's CPPN says: targets_rad[joint][timer], timer 0 … period; tolerance_rad[joint]; offset_ticks[leg].
 
@@ -32,10 +38,11 @@ class Patterns:
         self._nodes = {node["joint"]: node for node in self._substrate["nodes"]}
 
         times = np.arange(self.period_ticks + 1) / self.period_ticks
-        self.targets_rad, self.tolerance_rad = [], []
+        self.targets_rad, self.tolerance_rad, self._targets_rad_by_tick = [], [], []
         for joint in robot["joints"]:
             both = [self._targets_rad(joint, times, dtype) for dtype in (np.float32, np.float64)]
             self.targets_rad.append(both[0])
+            self._targets_rad_by_tick.append(both[0].tolist())
             self.tolerance_rad.append(1e-5 + 10.0 * np.abs(both[0] - both[1]).max())
         self.offset_ticks = [self._offset_ticks(self.joints[joints[0]]) for joints in self.joints_of_leg]
 
@@ -44,7 +51,7 @@ class Patterns:
         if timer == STOPPED:
             return self.middle_rad[joint]
         shift = sum(modulation.shift_rad(joint, i, timer, s) for i, s in enumerate(sensed))
-        return float(np.interp(timer, np.arange(self.period_ticks + 1), self.targets_rad[joint]) + shift)
+        return between_ticks(self._targets_rad_by_tick[joint], timer) + shift
 
     def points(self, joint_name, property_name, times, sensing=None):
         """Queries of a node, and the output that says this property of it; `sensing`: the CPPN's last inputs."""

@@ -111,6 +111,19 @@ def test_rewards_of_commands_are_the_programs_tracking_second_by_second(adapter,
     assert abs(sum(rewards) / 10.0 - followed) < 0.0006  # of which three digits are said
 
 
+def test_a_second_ends_with_the_tick_in_which_it_is_complete(adapter):
+    ticks = np.arange(401)
+    robots = Replayed(np.stack([0.003 * ticks, 0.0 * ticks], axis=1), 0.0 * ticks)
+    robots.timestep_s = 0.015
+    commands = adapter.Commands({"stretch_s": 100.0}, robots, np.random.default_rng(1))
+    ends = []
+    for tick in range(401):
+        commands.told[:] = (0.2, 0.0)
+        robots.at(tick)
+        ends += [tick] if commands.step(np.array([tick]))[0] > 0.0 else []
+    assert ends == [67, 134, 200, 267, 334, 400]  # 1.005, 2.01 and 3 s, and so on
+
+
 def test_who_stands_earns_nothing_but_where_a_stop_is_commanded(adapter):
     still = np.zeros((20, 12), np.float32)
     for stops, earned in ((0.0, 0.0), (1.0, 2.0)):
