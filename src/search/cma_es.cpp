@@ -79,10 +79,19 @@ void CmaEs::tell(std::span<const Evaluation> evaluations) {
     best_first.push_back(weights_of(candidates_[i]));
   }
   distribution_.update(best_first);
-  if (!distribution_.sound() || distribution_.widest() <= settings_.least_step)
-    distribution_ = new_distribution(++restarts_);
+  if (is_over(evaluations)) distribution_ = new_distribution(++restarts_);
   ++round_;
   sample();
+}
+
+bool CmaEs::is_over(std::span<const Evaluation> evaluations) const {
+  const double widest = distribution_.widest();
+  if (!distribution_.sound() || widest <= settings_.least_step || widest > most_growth * settings_.step)
+    return true;
+  const auto is_other = [](const Evaluation& a, const Evaluation& b) {
+    return a.viable != b.viable || (a.viable && a.objective != b.objective);
+  };
+  return std::ranges::adjacent_find(evaluations, is_other) == evaluations.end();
 }
 
 std::vector<Metric> CmaEs::metrics() const {

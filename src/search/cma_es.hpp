@@ -18,9 +18,15 @@ namespace amble::search {
 /// ranks last.
 ///
 /// Begins around an initial genome, drawn as NEAT's are. Begins again around another when the distribution
-/// has contracted to nothing (settings.least_step) or lost its shape to rounding.
+/// has contracted to nothing (settings.least_step), has grown to `most_growth` times its first width, lost
+/// its shape to rounding, or when all candidates of a round are alike: the tutorial's TolX, TolXUp,
+/// ConditionCov and EqualFunValues (app. B.3). Growth without end is what outputs that saturate lead to: no
+/// weight is too large for them.
 class CmaEs : public Strategy {
  public:
+  /// Of the standard deviation of a weight, to that of the first round.
+  static constexpr double most_growth = 1e4;
+
   /// The settings must be valid, and `space.neat` with at least 4 genomes.
   CmaEs(const CmaEsSettings& settings, const SearchSpace& space);
 
@@ -40,6 +46,8 @@ class CmaEs : public Strategy {
   neat::Genome initial_genome(int start) const;
   CovarianceAdaptation new_distribution(int start) const;
   void sample();
+  /// Whether nothing more can be expected of the distribution after this round.
+  bool is_over(std::span<const Evaluation> evaluations) const;
 
   CmaEsSettings settings_;
   neat::Settings neat_;

@@ -109,6 +109,38 @@ TEST_F(CmaEsTest, BeginsElsewhereWhenNothingIsLeftToSearch) {
   EXPECT_GT(evolving.distribution().widest(), 0.005);
 }
 
+TEST_F(CmaEsTest, BeginsElsewhereWhenItGrowsWithoutEnd) {
+  CmaEs evolving = search();
+  const double most = CmaEs::most_growth * settings_.step;
+  double restarts = 0.0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Evaluation> evaluations;
+    for (const neat::Genome& genome : evolving.ask()) {
+      double objective = 0.0;  // the farther, the better
+      for (const neat::LinkGene& link : genome.links) objective += std::log(1.0 + std::abs(link.weight));
+      evaluations.push_back({objective, {}, true});
+    }
+    evolving.tell(evaluations);
+    EXPECT_LE(evolving.distribution().widest(), most);
+    restarts = evolving.metrics()[2].value;
+  }
+  EXPECT_GT(restarts, 1.0);
+}
+
+TEST_F(CmaEsTest, BeginsElsewhereWhenAllCandidatesOfARoundAreAlike) {
+  CmaEs evolving = search();
+  const auto tell = [&](const Evaluation& first, const Evaluation& rest) {
+    std::vector<Evaluation> evaluations(12, rest);
+    evaluations.front() = first;
+    evolving.tell(evaluations);
+    return evolving.metrics()[2].value;
+  };
+  EXPECT_EQ(tell({1.0, {}, true}, {1.0, {}, true}), 1.0);
+  EXPECT_EQ(tell({1.0, {}, false}, {2.0, {}, false}), 2.0);
+  EXPECT_EQ(tell({1.0, {}, true}, {1.0, {}, false}), 2.0);
+  EXPECT_EQ(tell({1.5, {}, true}, {1.0, {}, true}), 2.0);
+}
+
 TEST_F(CmaEsTest, OfDifferentSeedsSearchesDifferently) {
   EXPECT_NE(search(1).ask()[0], search(2).ask()[0]);
 }
