@@ -25,11 +25,6 @@ experiment::Config config_in(const io::JsonView& plan) {
   if (config.search.map_elites.tries_candidates_again())  // there WebAssembly could have other bits
     fail(ExitCode::bad_input, "search.map_elites.trials = {}: expected 1 in a page",
          config.search.map_elites.trials);
-  // Their steps are scaled by functions of the C library.
-  if (config.search.kind == "cma-es" || config.search.map_elites.variation == search::Variation::cma)
-    fail(ExitCode::bad_input,
-         "search.kind = \"{}\" by CMA-ES: expected another in a page, where it could have other bits",
-         config.search.kind);
   if (plan.has("new") && plan.at("new").flag())
     config.neat.speciation.scale_targets(config.neat.population.size);
   config.validate();

@@ -42,11 +42,10 @@ void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 void OscillatorSettings::describe(io::SettingsVisitor& visitor) {
-  constexpr std::string_view paper = "Raffin et al., arXiv 2310.05808";
   visitor.number("least_frequency_hz", least_frequency_hz, {0.001, 100.0},
-                 {"the slowest that a joint can swing, turns per second", paper});
+                 {"the slowest that a joint can swing, turns per second"});
   visitor.number("most_frequency_hz", most_frequency_hz, {0.001, 100.0},
-                 {"the fastest that a joint can swing, turns per second", paper});
+                 {"the fastest that a joint can swing, turns per second"});
   visitor.choice(
       "reset", reset, phase_reset_names,
       {"a foot that comes down leaves the phases of its leg as they are (none) or starts them anew "

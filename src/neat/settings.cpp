@@ -27,7 +27,9 @@ void PopulationSettings::describe(io::SettingsVisitor& visitor) {
 void GenomeSettings::describe(io::SettingsVisitor& visitor) {
   visitor.number(
       "weight_limit", weight_limit, {1e-3, 1e3},
-      {"weights stay within ± this; new ones are uniform in that range", "HyperSharpNEAT: range 3"});
+      {"new weights are uniform within ± this, and NEAT keeps them in it (CMA-ES, CMA-MAE and lines between "
+       "elites do not)",
+       "HyperSharpNEAT: range 3"});
   visitor.number(
       "initial_link_probability", initial_link_probability, probability,
       {"probability of each link from bias and inputs to outputs in generation 0", hyper_sharp_neat});

@@ -21,7 +21,9 @@ struct PopulationSettings {
 
 /// Structure of genomes, initially and as they grow.
 struct GenomeSettings {
-  double weight_limit = 1.5;  ///< weights stay within ± this, 0.001 … 1000; new ones are uniform in it
+  /// New weights are uniform within ± this, 0.001 … 1000, and NEAT's mutation keeps them in it. CMA-ES,
+  /// CMA-MAE and lines between elites only begin there.
+  double weight_limit = 1.5;
   double initial_link_probability = 1.0;  ///< that a link from bias or an input to an output exists, 0 … 1
   Activation output_activation = Activation::bipolar_sigmoid;  ///< function of all output nodes
   /// Shares of the functions of new hidden nodes, in the order of `activation_names`. Their sum is positive.

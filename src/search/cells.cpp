@@ -23,10 +23,18 @@ float scaled(const DescriptorSettings& descriptor, float value) {
   return static_cast<float>(std::clamp(place_of(descriptor, value), 0.0, 1.0));
 }
 
+/// Of which of so many dimensions the range is a whole turn.
+std::vector<bool> closed_of(std::span<const double> turns, std::size_t dimensions) {
+  std::vector<bool> closed(dimensions, false);
+  for (std::size_t i = 0; i < std::min(dimensions, turns.size()); ++i)
+    closed[i] = std::abs(turns[i] - 1.0) < 1e-6;
+  return closed;
+}
+
 }  // namespace
 
-GridCells::GridCells(std::span<const DescriptorSettings> descriptors)
-    : descriptors_(descriptors.begin(), descriptors.end()) {
+GridCells::GridCells(std::span<const DescriptorSettings> descriptors, std::span<const double> turns)
+    : descriptors_(descriptors.begin(), descriptors.end()), closed_(closed_of(turns, descriptors.size())) {
   for (const DescriptorSettings& descriptor : descriptors_)
     count_ *= static_cast<std::uint32_t>(descriptor.bins);
 }
@@ -49,9 +57,11 @@ double GridCells::share_inside(std::span<const float> descriptor, double deviati
     const DescriptorSettings& dimension = descriptors_[i];
     const double place = place_of(dimension, descriptor[i]);
     const double bin = std::clamp(std::floor(place * dimension.bins), 0.0, dimension.bins - 1.0);
-    // The outermost bins have what is beyond them as well.
-    const double below = bin > 0.0 ? statistics::normal_cdf((bin / dimension.bins - place) / deviation) : 0.0;
-    const double above = bin < dimension.bins - 1.0
+    // The outermost bins have what is beyond them as well, unless that is at the other end.
+    const bool goes_round = closed_[i] && dimension.bins > 1;
+    const double below =
+        bin > 0.0 || goes_round ? statistics::normal_cdf((bin / dimension.bins - place) / deviation) : 0.0;
+    const double above = bin < dimension.bins - 1.0 || goes_round
                              ? statistics::normal_cdf((place - (bin + 1.0) / dimension.bins) / deviation)
                              : 0.0;
     share *= 1.0 - below - above;
@@ -161,8 +171,10 @@ std::vector<std::uint8_t> reached_ends(const CentroidTree& tree, std::span<const
 
 }  // namespace
 
-CentroidCells::CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids)
+CentroidCells::CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids,
+                             std::span<const double> turns)
     : descriptors_(descriptors.begin(), descriptors.end()),
+      closed_(closed_of(turns, descriptors.size())),
       dimensions_(descriptors.size()),
       centroids_(std::move(centroids)),
       tree_(std::make_unique<const CentroidTree>(centroids_, dimensions_)),
@@ -187,10 +199,14 @@ double CentroidCells::share_inside(std::span<const float> descriptor, double dev
     const double place = place_of(descriptors_[i], descriptor[i]),
                  from_centre = place - double{centroids_[first + i]};
     const std::uint8_t* const reaches = &reaches_[2 * (first + i)];
-    const double below =
-        reaches[0] || place <= 0.0 ? 0.0 : statistics::normal_cdf((-half - from_centre) / deviation);
-    const double above =
-        reaches[1] || place >= 1.0 ? 0.0 : statistics::normal_cdf((from_centre - half) / deviation);
+    const bool ends_below = reaches[0] || place <= 0.0, ends_above = reaches[1] || place >= 1.0;
+    double below = ends_below ? 0.0 : statistics::normal_cdf((-half - from_centre) / deviation);
+    double above = ends_above ? 0.0 : statistics::normal_cdf((from_centre - half) / deviation);
+    if (closed_[i] && ends_below != ends_above) {
+      // Behind the end comes the other end.
+      if (ends_below) below = statistics::normal_cdf(-place / deviation);
+      if (ends_above) above = statistics::normal_cdf((place - 1.0) / deviation);
+    }
     share *= 1.0 - below - above;
   }
   return share;
@@ -227,13 +243,14 @@ std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, s
   return centroids;
 }
 
-std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings) {
-  if (settings.archive == Archive::grid) return std::make_unique<GridCells>(settings.descriptors);
+std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings, std::span<const double> turns) {
+  if (settings.archive == Archive::grid) return std::make_unique<GridCells>(settings.descriptors, turns);
   const auto count = static_cast<std::size_t>(settings.cells);
-  return std::make_unique<CentroidCells>(
-      settings.descriptors, spread_centroids(count, settings.descriptors.size(),
-                                             static_cast<std::size_t>(settings.centroid_samples),
-                                             static_cast<std::uint64_t>(settings.centroid_seed)));
+  return std::make_unique<CentroidCells>(settings.descriptors,
+                                         spread_centroids(count, settings.descriptors.size(),
+                                                          static_cast<std::size_t>(settings.centroid_samples),
+                                                          static_cast<std::uint64_t>(settings.centroid_seed)),
+                                         turns);
 }
 
 }  // namespace amble::search

@@ -19,7 +19,11 @@ namespace amble::search {
 /// emitter samples its share of a batch, ranks it by how far each objective exceeds the threshold of its
 /// cell, and moves towards the better half. Thresholds of cells then rise towards what exceeded them, all of
 /// a batch at once (as in pyribs). An emitter that has contracted to nothing, or whose candidates are all
-/// alike, begins again at any elite of the map.
+/// alike, begins again at any elite of the map. Candidates that are not viable rank last; where fewer than
+/// half are, some of them are among the better half.
+///
+/// Thresholds know nothing of elites that are evaluated again: a cell that loses its elite so keeps the
+/// threshold that its first evaluations raised.
 ///
 /// Its genomes are the initial one, in which bias and inputs are linked with all outputs. Results depend on
 /// settings, seed and evaluations alone, to the bit.

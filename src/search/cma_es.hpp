@@ -15,7 +15,7 @@ namespace amble::search {
 /// CMA-ES (covariance_adaptation.hpp) on the weights of one CPPN that never grows: the initial genome, in
 /// which bias and inputs are linked with all outputs. A round is population.size samples; the better half by
 /// objective moves the distribution, and ties go to the candidate that comes first. One that is not viable
-/// ranks last.
+/// ranks last; where fewer than half are viable, some that are not are among the better half.
 ///
 /// Begins around an initial genome, drawn as NEAT's are. Begins again around another when the distribution
 /// has contracted to nothing (settings.least_step), has grown to `most_growth` times its first width, lost

@@ -8,9 +8,10 @@
 namespace amble::search {
 
 /// The covariance matrix adaptation evolution strategy on numbers alone: (μ/μ_w, λ)-CMA-ES with positive
-/// weights and the parameters of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (arXiv 1604.00772), with
-/// the Cholesky factor of the covariance in place of its square root (Krause, Arbonès & Igel, NIPS 2016).
-/// That needs + − × ÷ √ and what core/elementary.hpp has, so that the same numbers come out on any computer.
+/// weights and the parameters of N. Hansen, "The CMA Evolution Strategy: A Tutorial" (arXiv 1604.00772; c_μ
+/// as in pyribs, 2 (μ − 2 + 1/μ) / …, where pycma adds ¼ to the bracket), with the Cholesky factor of the
+/// covariance in place of its square root (Krause, Arbonès & Igel, NIPS 2016). That needs + − × ÷ √ and what
+/// core/elementary.hpp has, so that the same numbers come out on any computer.
 ///
 /// A round: sample() as many points as there are candidates, rank them by any means, update().
 class CovarianceAdaptation {

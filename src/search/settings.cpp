@@ -131,7 +131,8 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("batch", batch, {1, 1e6}, {"genomes evaluated in a round (a generation)"});
   visitor.integer(
       "initial", initial, {1, 1e9},
-      {"random genomes in the first rounds, rounded up to whole rounds; none where variation is cma"});
+      {"random genomes in the first rounds, rounded up to whole rounds, less the challengers among them "
+       "(trials); none where variation is cma"});
   visitor.choice(
       "select", select, selection_names,
       {"parents: any elite; of two elites that with the better objective, or the more curious; or any of a "
@@ -193,7 +194,7 @@ void CmaEmitterSettings::describe(io::SettingsVisitor& visitor) {
                  {"standard deviation of each weight where an emitter begins", "σ₀ of arXiv 2205.10752"});
   visitor.number("learning_rate", learning_rate, {0.0, 1.0},
                  {"how much of the way a cell's threshold goes to the objective of a candidate that exceeds "
-                  "it; 1: nearly CMA-ME",
+                  "it; 1: nearly CMA-ME, but that new cells do not come before all others",
                   "α of arXiv 2205.10752: 0.01"});
   visitor.number(
       "least_threshold", least_threshold, {-1e9, 1e9},

@@ -129,7 +129,9 @@ struct CmaEmitterSettings {
   int emitters = 16;  ///< distributions, 1 … 1e4
   double step = 0.1;  ///< standard deviation of each weight where one begins (σ₀), 1e−9 … 1000
   /// How much of the way a cell's threshold goes to the objective of a candidate that exceeds it (α), 0 … 1.
-  /// 0: a search for the best alone; 1: nearly CMA-ME, but that several of a round count by their mean.
+  /// 0: a search for the best alone; 1: nearly CMA-ME, but that several of a round count by their mean, a new
+  /// cell counts by how far it exceeds `least_threshold` and not before all others, and an emitter that
+  /// improves nothing goes on.
   double learning_rate = 0.01;
   double least_threshold = 0.0;  ///< of a cell at first, in the unit of the score (min_f), −1e9 … 1e9
 
@@ -154,8 +156,8 @@ struct MapElitesSettings {
   int centroid_samples = 100000;   ///< Archive::cvt: points of which they are made, cells … most_cells
   std::int64_t centroid_seed = 1;  ///< Archive::cvt: seed of these points, not the run's, 0 … 1e18
   int batch = 1024;                ///< genomes evaluated in a round, 1 … 1e6
-  /// Random genomes in the first rounds, rounded up to whole rounds, 1 … 1e9. Without effect with
-  /// Variation::cma.
+  /// Random genomes in the first rounds, rounded up to whole rounds, 1 … 1e9; challengers (`trials`) take
+  /// places among them. Without effect with Variation::cma.
   int initial = 4096;
   Selection select = Selection::uniform;  ///< how parents are drawn
   double crossover_probability = 0.0;  ///< that a child has two parents, 0 … 1; else it is a mutated copy

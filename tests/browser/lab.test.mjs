@@ -59,6 +59,26 @@ for (const [name, [robot, settings]] of Object.entries(RUNS))
     sameRun(run.save(join(WORK, slug)), await natively(plan, slug));
   });
 
+// The page has no button for these; a plan may ask for them.
+const BY_COVARIANCES = {
+  "weights by CMA-ES": (config) => {
+    config.search.kind = "cma-es";
+  },
+  "a map by CMA-MAE": (config) => {
+    config.search.kind = "map-elites";
+    Object.assign(config.search.map_elites, { variation: "cma", crossover_probability: 0, batch: 20, cma: { emitters: 4, step: 0.1, learning_rate: 0.01, least_threshold: 0 } });
+  },
+};
+
+for (const [name, change] of Object.entries(BY_COVARIANCES))
+  test(`${name}: the table and the champions are those of amble evolve`, async () => {
+    const { config, ...rest } = JSON.parse(planFor("servo", { search: "map-elites" })), slug = name.replaceAll(/\W+/g, "-");
+    change(config);
+    const plan = JSON.stringify({ ...rest, config }), run = await LabRun.begin(module, plan, { modules: 2, together: 7 });
+    for (let i = 0; i < GENERATIONS; ++i) run.step();
+    sameRun(run.save(join(WORK, slug)), await natively(plan, slug));
+  });
+
 for (const search of ["objective", "novelty", "map-elites"])
   test(`${search}: amble resume goes on with a run of the lab, and the lab with one of amble resume`, async () => {
     const plan = planFor("servo", { search }), run = await LabRun.begin(module, plan);

@@ -20,15 +20,17 @@ std::vector<DescriptorSettings> two_dimensions(int bins) {
   return two;
 }
 
-/// The share of points around `descriptor` that are in its cell.
-double counted_share(const Cells& cells, const std::vector<float>& descriptor, double deviation) {
+/// The share of points around `descriptor` that are in its cell. `round`: the second dimension is a circle.
+double counted_share(const Cells& cells, const std::vector<float>& descriptor, double deviation,
+                     bool round = false) {
   Stream stream(1, Purpose::test, 2, 3);
   const std::uint32_t cell = cells.of(descriptor);
   constexpr int points = 40000;
   int inside = 0;
   for (int i = 0; i < points; ++i) {
-    const std::vector<float> point{descriptor[0] + static_cast<float>(deviation * stream.normal()),
-                                   descriptor[1] + static_cast<float>(180.0 * deviation * stream.normal())};
+    std::vector<float> point{descriptor[0] + static_cast<float>(deviation * stream.normal()),
+                             descriptor[1] + static_cast<float>(180.0 * deviation * stream.normal())};
+    if (round) point[1] -= 180.0f * std::floor((point[1] + 90.0f) / 180.0f);
     inside += cells.of(point) == cell;
   }
   return inside / static_cast<double>(points);
@@ -65,6 +67,24 @@ TEST(ShareInside, OfCentroidsIsThatOfPointsDrawnAtTheEndsOfRangesToo) {
   const std::vector<float> middle{0.5f, 0.0f}, border{1.0f / 3.0f, 0.0f};
   EXPECT_NEAR(cells.share_inside(middle, 1.0 / 6.0), 0.6827 * 0.6827, 1e-3) << "one deviation to each side";
   EXPECT_NEAR(cells.share_inside(border, 1e-3), 0.5, 1e-3);
+}
+
+TEST(ShareInside, OfACircleEndsAtItsSeam) {
+  const std::vector<double> turns{0.0, 1.0};
+  std::vector<float> centroids;
+  for (const float x : {1.0f, 3.0f, 5.0f})
+    for (const float y : {1.0f, 3.0f, 5.0f}) centroids.insert(centroids.end(), {x / 6.0f, y / 6.0f});
+  const GridCells grid(two_dimensions(5), turns);
+  const CentroidCells cvt(two_dimensions(1), centroids, turns);
+  for (const Cells* const cells : {static_cast<const Cells*>(&grid), static_cast<const Cells*>(&cvt)})
+    for (const float x : {0.0f, 0.5f})
+      for (const float y : {-90.0f, -88.0f, -60.0f, 0.0f, 53.0f, 89.9f})
+        for (const double deviation : {0.02, 0.1}) {
+          const std::vector<float> descriptor{x, y};
+          EXPECT_NEAR(cells->share_inside(descriptor, deviation),
+                      counted_share(*cells, descriptor, deviation, true), 0.011)
+              << x << " " << y << " " << deviation;
+        }
 }
 
 /// Cells of many dimensions are no cubes; those at the ends of ranges still go on beyond.
