@@ -23,18 +23,22 @@ float scaled(const DescriptorSettings& descriptor, float value) {
   return static_cast<float>(std::clamp(place_of(descriptor, value), 0.0, 1.0));
 }
 
-/// Of which of so many dimensions the range is a whole turn.
-std::vector<bool> closed_of(std::span<const double> turns, std::size_t dimensions) {
-  std::vector<bool> closed(dimensions, false);
-  for (std::size_t i = 0; i < std::min(dimensions, turns.size()); ++i)
-    closed[i] = std::abs(turns[i] - 1.0) < 1e-6;
+/// Of which dimensions the range is a whole circle.
+std::vector<bool> closed_of(std::span<const DescriptorSettings> descriptors,
+                            std::span<const Circle> circles) {
+  std::vector<bool> closed(descriptors.size(), false);
+  for (std::size_t i = 0; i < std::min(descriptors.size(), circles.size()); ++i) {
+    const double range = descriptors[i].most - descriptors[i].least, near = 1e-6 * range;
+    closed[i] =
+        std::abs(circles[i].turn - range) < near && std::abs(circles[i].lowest - descriptors[i].least) < near;
+  }
   return closed;
 }
 
 }  // namespace
 
-GridCells::GridCells(std::span<const DescriptorSettings> descriptors, std::span<const double> turns)
-    : descriptors_(descriptors.begin(), descriptors.end()), closed_(closed_of(turns, descriptors.size())) {
+GridCells::GridCells(std::span<const DescriptorSettings> descriptors, std::span<const Circle> circles)
+    : descriptors_(descriptors.begin(), descriptors.end()), closed_(closed_of(descriptors, circles)) {
   for (const DescriptorSettings& descriptor : descriptors_)
     count_ *= static_cast<std::uint32_t>(descriptor.bins);
 }
@@ -172,9 +176,9 @@ std::vector<std::uint8_t> reached_ends(const CentroidTree& tree, std::span<const
 }  // namespace
 
 CentroidCells::CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids,
-                             std::span<const double> turns)
+                             std::span<const Circle> circles)
     : descriptors_(descriptors.begin(), descriptors.end()),
-      closed_(closed_of(turns, descriptors.size())),
+      closed_(closed_of(descriptors, circles)),
       dimensions_(descriptors.size()),
       centroids_(std::move(centroids)),
       tree_(std::make_unique<const CentroidTree>(centroids_, dimensions_)),
@@ -243,14 +247,14 @@ std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, s
   return centroids;
 }
 
-std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings, std::span<const double> turns) {
-  if (settings.archive == Archive::grid) return std::make_unique<GridCells>(settings.descriptors, turns);
+std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings, std::span<const Circle> circles) {
+  if (settings.archive == Archive::grid) return std::make_unique<GridCells>(settings.descriptors, circles);
   const auto count = static_cast<std::size_t>(settings.cells);
   return std::make_unique<CentroidCells>(settings.descriptors,
                                          spread_centroids(count, settings.descriptors.size(),
                                                           static_cast<std::size_t>(settings.centroid_samples),
                                                           static_cast<std::uint64_t>(settings.centroid_seed)),
-                                         turns);
+                                         circles);
 }
 
 }  // namespace amble::search

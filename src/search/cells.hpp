@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "amble/core/circle.hpp"
 #include "amble/search/settings.hpp"
 
 namespace amble::search {
@@ -27,8 +28,8 @@ class Cells {
 /// that of its bins as digits, the last descriptor's first: bin 0 of all is cell 0, bin 1 of the last cell 1.
 class GridCells : public Cells {
  public:
-  /// `turns` as in make_cells().
-  explicit GridCells(std::span<const DescriptorSettings> descriptors, std::span<const double> turns = {});
+  /// `circles` as in make_cells().
+  explicit GridCells(std::span<const DescriptorSettings> descriptors, std::span<const Circle> circles = {});
   std::uint32_t count() const override { return count_; }
   std::uint32_t of(std::span<const float> descriptor) const override;
   double share_inside(std::span<const float> descriptor, double deviation) const override;
@@ -45,14 +46,14 @@ class CentroidTree;  // cells.cpp
 /// descriptor scaled to 0 … 1 over its range. Of equally near centroids the one with the lowest number.
 class CentroidCells : public Cells {
  public:
-  /// `centroids`: one after the other, in 0 … 1. `turns` as in make_cells().
+  /// `centroids`: one after the other, in 0 … 1. `circles` as in make_cells().
   CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids,
-                std::span<const double> turns = {});
+                std::span<const Circle> circles = {});
   ~CentroidCells() override;
   std::uint32_t count() const override { return static_cast<std::uint32_t>(centroids_.size() / dimensions_); }
   std::uint32_t of(std::span<const float> descriptor) const override;
   /// As if the cell were a cube around its centroid, with its share of the volume, that goes on beyond the
-  /// ends of ranges which the cell reaches, or where these are a whole turn to them.
+  /// ends of ranges which the cell reaches, or to those of a whole circle.
   double share_inside(std::span<const float> descriptor, double deviation) const override;
   std::span<const float> centroids() const { return centroids_; }
 
@@ -72,10 +73,9 @@ class CentroidCells : public Cells {
 std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, std::size_t samples,
                                     std::uint64_t seed);
 
-/// As the settings say. `turns`: a full turn of each descriptor, in parts of its range, 0 where it is none of
-/// a circle; those beyond the last are none. Where the range is a whole turn, what leaves it at one end is in
-/// another cell, at the other end.
+/// As the settings say. `circles`: of each descriptor; those beyond the last are lines. Where a range is a
+/// whole circle, from end to end, what leaves it at one end is in another cell, at the other end.
 std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings,
-                                        std::span<const double> turns = {});
+                                        std::span<const Circle> circles = {});
 
 }  // namespace amble::search

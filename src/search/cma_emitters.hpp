@@ -20,7 +20,7 @@ namespace amble::search {
 /// cell, and moves towards the better half. Thresholds of cells then rise towards what exceeded them, all of
 /// a batch at once (as in pyribs). An emitter that has contracted to nothing, or whose candidates are all
 /// alike, begins again at any elite of the map. Candidates that are not viable rank last; where fewer than
-/// half are, some of them are among the better half.
+/// half are viable, some that are not are among the better half.
 ///
 /// Thresholds know nothing of elites that are evaluated again: a cell that loses its elite so keeps the
 /// threshold that its first evaluations raised.

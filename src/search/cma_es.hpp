@@ -19,9 +19,9 @@ namespace amble::search {
 ///
 /// Begins around an initial genome, drawn as NEAT's are. Begins again around another when the distribution
 /// has contracted to nothing (settings.least_step), has grown to `most_growth` times its first width, lost
-/// its shape to rounding, or when all candidates of a round are alike: the tutorial's TolX, TolXUp,
-/// ConditionCov and EqualFunValues (app. B.3). Growth without end is what outputs that saturate lead to: no
-/// weight is too large for them.
+/// its shape to rounding, or when all candidates of a round are alike: the tutorial's TolX, TolXUp
+/// and ConditionCov (app. B.3); the last as emitters do (cma_emitters.hpp). Growth without end is what
+/// outputs that saturate lead to: no weight is too large for them.
 class CmaEs : public Strategy {
  public:
   /// Of the standard deviation of a weight, to that of the first round.

@@ -45,7 +45,7 @@ MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space
       recurrent_(space.recurrent),
       seed_(space.seed),
       circles_(space.circles),
-      cells_(make_cells(settings, turns_of(settings, space.circles))),
+      cells_(make_cells(settings, space.circles)),
       map_(cells_->count(), settings.descriptors.size(), settings.tries_candidates_again()),
       curiosity_(settings.select == Selection::curiosity ? cells_->count() : 0),
       before_(space.inputs, space.outputs, space.neat.innovations),

@@ -21,8 +21,8 @@
 
 namespace amble::search {
 
-/// A full turn of each descriptor, in parts of its range; 0 where it is none of a circle. At most as many
-/// circles as descriptors.
+/// A full turn of each descriptor, in parts of its range; 0 where it is none of a circle. As many circles as
+/// descriptors.
 std::vector<double> turns_of(const MapElitesSettings& settings, std::span<const Circle> circles);
 
 /// MAP-Elites (Mouret & Clune 2015) with NEAT's genomes: keeps the best genome of each cell of a map over

@@ -70,13 +70,15 @@ TEST(ShareInside, OfCentroidsIsThatOfPointsDrawnAtTheEndsOfRangesToo) {
 }
 
 TEST(ShareInside, OfACircleEndsAtItsSeam) {
-  const std::vector<double> turns{0.0, 1.0};
+  const std::vector<Circle> circles{{}, {.lowest = -90.0, .turn = 180.0}};
   std::vector<float> centroids;
   for (const float x : {1.0f, 3.0f, 5.0f})
     for (const float y : {1.0f, 3.0f, 5.0f}) centroids.insert(centroids.end(), {x / 6.0f, y / 6.0f});
-  const GridCells grid(two_dimensions(5), turns);
-  const CentroidCells cvt(two_dimensions(1), centroids, turns);
-  for (const Cells* const cells : {static_cast<const Cells*>(&grid), static_cast<const Cells*>(&cvt)})
+  MapElitesSettings settings;
+  settings.descriptors = two_dimensions(5);
+  const auto grid = make_cells(settings, circles);
+  const CentroidCells cvt(two_dimensions(1), centroids, circles);
+  for (const Cells* const cells : {grid.get(), static_cast<const Cells*>(&cvt)})
     for (const float x : {0.0f, 0.5f})
       for (const float y : {-90.0f, -88.0f, -60.0f, 0.0f, 53.0f, 89.9f})
         for (const double deviation : {0.02, 0.1}) {

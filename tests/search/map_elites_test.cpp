@@ -286,6 +286,33 @@ TEST_P(MapElitesSearch, TakesTheMeanOfAnAngleTheShortWayRound) {
   }
 }
 
+TEST_P(MapElitesSearch, TriesAgainFirstWhatIsFarFromTheSeamOfAnAngle) {
+  settings_.descriptors.assign(1, {.quantity = "turn", .leg = "", .least = -180.0, .most = 180.0, .bins = 4});
+  settings_.trials = 2;
+  settings_.challenger_share = 1.0 / settings_.batch;  // one
+  SearchSpace one = space();
+  one.behaviour_length = 1;
+  const auto tries_the_one_at_the_end = [&] {
+    MapElites search(settings_, one);
+    // At an end, and in the middle of another cell.
+    const std::vector<float> end{-179.0f}, middle{-45.0f};
+    std::vector<Evaluation> all(search.ask().size(),
+                                {.objective = 1.0, .behaviour = middle, .viable = false});
+    all[0] = {.objective = 1.0, .behaviour = end, .viable = true};
+    all[1].viable = true;
+    const neat::Genome first = search.ask()[0], second = search.ask()[1];
+    search.tell(all);
+    const bool tries_second = std::ranges::find(search.ask(), second) != search.ask().end();
+    EXPECT_NE(std::ranges::find(search.ask(), first) != search.ask().end(), tries_second);
+    return !tries_second;
+  };
+  EXPECT_TRUE(tries_the_one_at_the_end()) << "nothing is behind the end of a line";
+  one.circles = {{.lowest = -180.0, .turn = 360.0}};
+  EXPECT_FALSE(tries_the_one_at_the_end());
+  one.circles = {{.lowest = 0.0, .turn = 360.0}};
+  EXPECT_TRUE(tries_the_one_at_the_end()) << "the range is not the circle's: its ends hold what is beyond";
+}
+
 TEST_P(MapElitesSearch, ThatHasLostAllElitesBeginsWithTheLinksOfItsFirstRound) {
   MapElites search = of_one_cell();
   const std::vector<float> descriptor{0.5f};
