@@ -134,6 +134,16 @@ std::optional<std::string> unexpected(const CLI::App& app, const CLI::App& comma
   return std::nullopt;
 }
 
+/// An argument or option that is given as "".
+std::optional<std::string> empty_value(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() > 0 &&
+        std::ranges::find(option->results(), "") != option->results().end())
+      return fmt::format("{} \"\": the value is empty; expected {}; what it is for: {}", option->get_name(),
+                         value_name(option->get_type_name()), option->get_description());
+  return std::nullopt;
+}
+
 /// An argument that names a file which does not exist.
 std::optional<std::string> missing_input(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
@@ -192,11 +202,7 @@ std::string unknown_command(const CLI::App& app, std::string_view name) {
 
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands())
-    for (const CLI::Option* option : command->get_options())
-      if (option->get_items_expected_max() > 0 &&
-          std::ranges::find(option->results(), "") != option->results().end())
-        fail(ExitCode::bad_input, "{} \"\": the value is empty; expected {}; what it is for: {}",
-             option->get_name(), value_name(option->get_type_name()), option->get_description());
+    if (const auto empty = empty_value(*command)) fail(ExitCode::bad_input, "{}", *empty);
 }
 
 UserError usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
@@ -206,6 +212,7 @@ UserError usage_error(const CLI::App& app, const CLI::ParseError& error, int arg
   const std::string advice =
       commands.empty() ? "amble help" : fmt::format("amble {} --help", command.get_name());
   if (const auto word = unexpected(app, command)) return UserError(fmt::format("{} ({})", *word, advice));
+  if (const auto empty = empty_value(command)) return UserError(*empty);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     if (const auto path = missing_input(command)) return UserError(*path, ExitCode::io);
   return UserError(fmt::format("{} ({})", error.what(), advice));

@@ -51,6 +51,12 @@ TEST_F(BadInput, AnEmptyValueIsNamedWithWhatIsExpected) {
                                                {"trial", walker, "--record", ""},
                                                {"trial", walker, "--damage", ""},
                                                {"trial", ""},
+                                               {"trial", walker, "--seconds", ""},
+                                               {"robot", ""},
+                                               {"report", ""},
+                                               {"evolve", ""},
+                                               {"study", ""},
+                                               {"lab", ""},
                                                {"gait", ""}};
   for (const auto& command : commands)
     expect_refusal(command, ExitCode::bad_input, " \"\": the value is empty; expected ");
