@@ -218,8 +218,7 @@ TEST_F(Study, InAFolderWithoutANameIsRefused) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.err,
             "amble: --out \"\": the value is empty; expected PATH; what it is for: Folder of the study; goes "
-            "on with what "
-            "is there\n");
+            "on with what is there\n");
 }
 
 TEST_F(Study, DoesNotGoIntoAFolderThatHoldsOtherFolders) {
