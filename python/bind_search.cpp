@@ -211,7 +211,7 @@ experiment::ToldGeneration evaluate(Task& task, Arena& arena, std::span<const ne
     evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
                                                         task.behaviour().measures());
   const auto all = experiment::evaluate_generation(*evaluator, arena.problem, task.config.value.evaluation,
-                                                   arena.ground, seed, generation, genomes, stop);
+                                                   arena.memory, seed, generation, genomes, stop);
   return all ? experiment::told(*all, task.behaviour()) : experiment::ToldGeneration{};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/generation.hpp"
 #include "amble/experiment/problem.hpp"
 #include "python/bind.hpp"
 
@@ -16,7 +17,7 @@ namespace amble::python {
 struct Arena {
   experiment::Problem problem;
   std::map<int, std::unique_ptr<experiment::Evaluator>> evaluators;  ///< by number of workers
-  experiment::GenerationGround ground;
+  experiment::GenerationMemory memory;
   CallLock lock;  ///< held while one evaluates
 
   explicit Arena(experiment::Problem made) : problem(std::move(made)) {}

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include "amble/cppn/settings.hpp"
@@ -32,6 +35,22 @@ inline constexpr float near_sine = 4096.0f;
 /// 64 zeros and the first 192 binary digits of 1/π.
 inline constexpr std::uint64_t one_over_pi_digits[4] = {0, 0x517cc1b727220a94, 0xfe13abe8fa9a6ee0,
                                                         0x6db14acc9e21c820};
+/// The biased exponent of the smallest |x| above near_sine; those of infinities are the largest, 255.
+inline constexpr int first_large_exponent = 139;
+/// 64 digits of 2^(e − 150)/π each, e being the biased exponent, from first_large_exponent on: those left of
+/// the point that are whole turns for every significand are dropped. None for infinities.
+inline constexpr auto turn_digits = [] {
+  std::array<std::uint64_t, 256 - first_large_exponent> digits{};
+  for (std::size_t i = 0; i + 1 < digits.size(); ++i) {
+    const std::size_t position = 64 + first_large_exponent - 150 + i, word = position / 64,
+                      shift = position % 64;
+    digits[i] = one_over_pi_digits[word] << shift;
+    if (shift != 0) digits[i] |= one_over_pi_digits[word + 1] >> (64 - shift);
+  }
+  return digits;
+}();
+/// The angle of the least turn that is told apart, 2^−64 of one.
+inline constexpr double turn_unit_rad = 2.0 * std::numbers::pi * 0x1p-64;
 
 }  // namespace amble::cppn::constants
 

@@ -45,7 +45,7 @@ void activate_values(neat::Activation function, Linear linear, float* values, st
 
 /// f(Σ_k w_k v_k) of one node at the points of a block: sums from zero in the order of the links, each
 /// product and sum rounded. Four vectors at a time, because each operation waits for the one before it.
-template <Vector (*function)(Vector)>
+template <void (*function)(Vector&, Vector&, Vector&, Vector&)>
 HWY_INLINE void compute(const Program::Link* links, int count, const Tile* source, float* values) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
@@ -59,10 +59,11 @@ HWY_INLINE void compute(const Program::Link* links, int count, const Tile* sourc
       s2 = hn::Add(s2, hn::Mul(weight, hn::Load(d, from + 2 * lanes)));
       s3 = hn::Add(s3, hn::Mul(weight, hn::Load(d, from + 3 * lanes)));
     }
-    hn::Store(function(s0), d, values + i);
-    hn::Store(function(s1), d, values + i + lanes);
-    hn::Store(function(s2), d, values + i + 2 * lanes);
-    hn::Store(function(s3), d, values + i + 3 * lanes);
+    function(s0, s1, s2, s3);
+    hn::Store(s0, d, values + i);
+    hn::Store(s1, d, values + i + lanes);
+    hn::Store(s2, d, values + i + 2 * lanes);
+    hn::Store(s3, d, values + i + 3 * lanes);
   }
 }
 
@@ -70,14 +71,15 @@ void compute_node(const Program& program, const Program::Node& node, const Tile*
   const Program::Link* const links = program.links.data() + node.first_link;
   switch (node.activation) {
     case neat::Activation::bipolar_sigmoid:
-      return compute<bipolar_sigmoid>(links, node.link_count, source, values);
+      return compute<apply_to_four<bipolar_sigmoid>>(links, node.link_count, source, values);
     case neat::Activation::gaussian:
-      return compute<gaussian>(links, node.link_count, source, values);
+      return compute<apply_to_four<gaussian>>(links, node.link_count, source, values);
     case neat::Activation::sine:
-      return compute<sine>(links, node.link_count, source, values);
+      return compute<sines_of_four>(links, node.link_count, source, values);
     case neat::Activation::linear:
-      return program.linear == Linear::absolute ? compute<absolute>(links, node.link_count, source, values)
-                                                : compute<identity>(links, node.link_count, source, values);
+      return program.linear == Linear::absolute
+                 ? compute<apply_to_four<absolute>>(links, node.link_count, source, values)
+                 : compute<apply_to_four<identity>>(links, node.link_count, source, values);
   }
 }
 

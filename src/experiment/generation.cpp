@@ -86,12 +86,14 @@ ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour
 
 std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,
                                                        const EvaluationSettings& settings,
-                                                       GenerationGround& ground, std::int64_t seed,
+                                                       GenerationMemory& memory, std::int64_t seed,
                                                        int generation, std::span<const neat::Genome> genomes,
                                                        const std::atomic<bool>& stop) {
   const int drawn = noise_generation(settings.draw, generation);
-  const auto on = ground.of(problem, seed, drawn);
-  auto result = evaluator.evaluate(genomes, stop, problem.scenarios(seed, drawn, on.get()), on);
+  const auto on = memory.ground.of(problem, seed, drawn);
+  const bool varies = problem.trials_vary() || on != nullptr;
+  auto result = memory.trials.evaluate(evaluator, genomes, stop, {seed, varies ? drawn : 0},
+                                       problem.scenarios(seed, drawn, on.get()), on);
   if (!result) return std::nullopt;
   EvaluatedGeneration evaluated{.result = std::move(*result), .objectives = {}};
   evaluated.objectives = objectives(problem, evaluated.result);

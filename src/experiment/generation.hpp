@@ -10,6 +10,7 @@
 #include "amble/experiment/plan/told_generation.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/problem/evaluation_settings.hpp"
+#include "amble/experiment/trial_memory.hpp"
 #include "amble/score/behaviour.hpp"
 #include "amble/search/evaluation.hpp"
 
@@ -27,13 +28,19 @@ struct EvaluatedGeneration {
   std::size_t best() const;
 };
 
+/// What is kept of a generation for the next. Not thread safe.
+struct GenerationMemory {
+  GenerationGround ground;
+  TrialMemory trials;
+};
+
 /// The generation's trials: one per genome and episode of the problem's noise, then those of the finalists
 /// (sequential halving in two rounds; Karnin, Koren & Somekh, ICML 2013). A genome that was not tried again
 /// counts at most as much as the worst of those that were: what it reached beyond may be luck. Nothing if
-/// `stop` was set before all trials had ended. `ground` remembers the ground of the call before.
+/// `stop` was set before all trials had ended. `memory` is that of the calls before for this problem.
 std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,
                                                        const EvaluationSettings& settings,
-                                                       GenerationGround& ground, std::int64_t seed,
+                                                       GenerationMemory& memory, std::int64_t seed,
                                                        int generation, std::span<const neat::Genome> genomes,
                                                        const std::atomic<bool>& stop);
 

@@ -62,13 +62,14 @@ MemoryNeed memory_of_generation(const Config& config, const Problem& problem) {
   const double genomes = candidates_per_generation(config),
                episodes = problem.trials_vary() ? config.noise.episodes : 1.0,
                numbers = static_cast<double>(config.make_behaviour()->length());
-  // Parents and children, with four times the links they start with.
+  // Parents and children, and the generation whose trials are remembered (TrialMemory), with four times the
+  // links they start with.
   const double links = 4.0 * (problem.cppn_inputs() + 1.0) * problem.cppn_outputs();
-  const double genome_bytes = 2.0 * links * static_cast<double>(sizeof(neat::LinkGene));
+  const double genome_bytes = 3.0 * links * static_cast<double>(sizeof(neat::LinkGene));
   const double trial_bytes = static_cast<double>(sizeof(record::Trajectory)) + numbers * sizeof(float);
   const bool map = config.search.kind == "map-elites";
   const std::string key = map ? "search.map_elites.batch" : "population.size";
-  MemoryNeed need{.bytes = genomes * (episodes * trial_bytes + numbers * sizeof(float) + genome_bytes),
+  MemoryNeed need{.bytes = genomes * (2.0 * episodes * trial_bytes + numbers * sizeof(float) + genome_bytes),
                   .what = fmt::format("{} = {}", key, genomes),
                   .keys = {key}};
   if (episodes > 1.0) {

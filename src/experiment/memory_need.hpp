@@ -17,7 +17,8 @@ namespace amble::experiment {
 double usable_memory_bytes(const std::filesystem::path& process_groups = "/proc/self/cgroup",
                            const std::filesystem::path& groups = "/sys/fs/cgroup");
 
-/// What a generation keeps in memory at least: its genomes, and the trajectories of all their trials.
+/// What a generation keeps in memory at least: its genomes and the trajectories of all their trials, and
+/// those of the generation before.
 struct MemoryNeed {
   double bytes = 0.0;
   std::string what;               ///< "population.size = 300 genomes × …": the factors and their settings

@@ -87,7 +87,7 @@ class Run::State {
   std::unique_ptr<const score::Behaviour> behaviour_;
   RunState state_;
   RunFiles files_;
-  GenerationGround ground_;
+  GenerationMemory memory_;
   TrialTally tally_;
   int done_;  ///< generations that are written; the search may be told one more
   int jobs_;
@@ -198,7 +198,7 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
     const auto candidates = state_.strategy->ask();
     evaluating =
         std::async(jobs_ > 1 ? std::launch::async : std::launch::deferred, [&, generation, candidates] {
-          return evaluate_generation(evaluator, *problem_, config_.evaluation, ground_, config_.seed,
+          return evaluate_generation(evaluator, *problem_, config_.evaluation, memory_, config_.seed,
                                      generation, candidates, stop);
         });
   };

@@ -33,8 +33,8 @@ EvaluatedGeneration evaluated(const Config& config, int generation = 3, int jobs
   const Problem problem = small_problem(config);
   const auto population = small_population(problem);
   Evaluator evaluator(problem, {}, jobs);
-  GenerationGround ground;
-  return evaluate_generation(evaluator, problem, config.evaluation, ground, config.seed, generation,
+  GenerationMemory memory;
+  return evaluate_generation(evaluator, problem, config.evaluation, memory, config.seed, generation,
                              population.genomes(), unstopped)
       .value();
 }
