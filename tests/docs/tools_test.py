@@ -317,6 +317,7 @@ class Kept(Case):
 
         first = table()
         self.assertEqual((first.returncode, len(self.asked())), (0, 4), first.stderr)
+        self.assertIn("4 of 120 cases", first.stderr)
         self.assertEqual(first.stdout.splitlines()[2:], ["| quadruped, SUPG | 4.00 | 3.00 | 1.00 | 2.00 | 50 % of 4 | 4 | 50 |", "",
                                                          "quadruped, adapted, means over maps: SUPG 2.00 m"])
         self.assertEqual(table().stdout, first.stdout)
@@ -335,7 +336,10 @@ class Kept(Case):
         self.write("broken/study.toml", "name = ")
         self.all_wrong(*(("recovery-of-maps", "encodings", name, stub) for name in
                          ("nowhere", "empty", "broken", SOURCES / "results/noise", SOURCES / "results/encodings")),
-                       ("recovery-of-maps", "sizes"), ("recovery-of-maps", "others"))
+                       ("recovery-of-maps", "others"))
+        tools = self.folder / "tools"
+        shutil.copytree(SOURCES / "tools", tools, ignore=shutil.ignore_patterns("__pycache__"))
+        self.assertOneLine(run_tool("recovery-of-maps", "sizes", tools=tools, folder=self.folder), "no recovery.csv yet")
         self.assertEqual(self.asked(), [])
 
     def test_recovery_study_starts_nothing_that_was_not_meant(self):
