@@ -420,6 +420,7 @@ the config's). jobs: workers (default: processors); results do not depend on it.
 (default: the round of a Search, else 0). objective: in m unless the config scores something else. behaviour: the path
 over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, the quantities of the map under
 MAP-Elites, else empty (d = 0). The pair, an Evaluation, also has viable, bool [n]: false where a simulation diverged.
+Of equal genomes one is tried, and none that was among those of the call before on the same trials.
 Raises Error; Ctrl-C raises KeyboardInterrupt at once.)");
   refuse_unmade<neat::Genome>();
   refuse_unmade<Task>();
