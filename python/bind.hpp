@@ -55,7 +55,8 @@ LoadedConfig config_of(const py::object& config_or_path);
 void set_seed(experiment::Config& config, std::optional<std::int64_t> seed);
 
 py::object to_python(const io::Json& json);
-/// By way of Python's own json module. TypeError or ValueError for what it cannot write.
+/// By way of Python's own json module. TypeError or ValueError for what it cannot write, UserError for
+/// numbers that are not finite.
 io::Json to_json(const py::object& object, const std::string& what);
 /// Bytes as a str, those that are not UTF-8 as os.fsdecode() has them: messages name paths.
 py::str text_of(std::string_view bytes);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -37,6 +38,28 @@ py::object to_python(const io::Json& json) {
   }
 }
 
+namespace {
+
+/// Where in dicts and lists the first number is that is not finite, as "links[2].weight"; empty: nowhere.
+std::string not_finite_in(const py::handle& value, const std::string& place) {
+  std::string found;
+  if (py::isinstance<py::float_>(value)) return std::isfinite(value.cast<double>()) ? "" : place;
+  if (py::isinstance<py::dict>(value)) {
+    for (const auto& [key, member] : value.cast<py::dict>()) {
+      const auto name = key.cast<std::string>();
+      found = not_finite_in(member, place.empty() ? name : place + "." + name);
+      if (!found.empty()) return found;
+    }
+  } else if (py::isinstance<py::list>(value)) {
+    const auto list = value.cast<py::list>();
+    for (std::size_t i = 0; i < list.size() && found.empty(); ++i)
+      found = not_finite_in(list[i], fmt::format("{}[{}]", place, i));
+  }
+  return found;
+}
+
+}  // namespace
+
 io::Json to_json(const py::object& object, const std::string& what) {
   // Numbers of numpy are written as Python's.
   const py::cpp_function plain([&what](const py::object& value) -> py::object {
@@ -44,9 +67,18 @@ io::Json to_json(const py::object& object, const std::string& what) {
     throw py::type_error(fmt::format("{}: expected numbers, texts, lists and dicts, found {}", what,
                                      py::str(py::type::of(value).attr("__name__")).cast<std::string>()));
   });
-  const py::object text = py::module_::import("json").attr("dumps")(object, py::arg("default") = plain,
-                                                                    py::arg("allow_nan") = false);
-  return io::parse_json(text.cast<std::string>(), what);
+  const py::module_ json = py::module_::import("json");
+  const auto written = [&](bool allow_nan) {
+    return json.attr("dumps")(object, py::arg("default") = plain, py::arg("allow_nan") = allow_nan);
+  };
+  try {
+    return io::parse_json(written(false).cast<std::string>(), what);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+  }
+  // Also thrown, and again here, for what contains itself.
+  const std::string place = not_finite_in(json.attr("loads")(written(true)), "");
+  fail(ExitCode::bad_input, "{}: key '{}' must be a finite number", what, place);
 }
 
 py::str text_of(std::string_view bytes) {
