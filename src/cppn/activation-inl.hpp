@@ -65,8 +65,8 @@ HWY_INLINE Vector gaussian(Vector x) {
   return hn::Sub(hn::Add(e, e), hn::Set(d, 1.0f));
 }
 
-/// 2x less the nearest multiple k π; sin(2x) is the sine of it, and for odd k of its negative, which is
-/// given.
+/// An angle whose sine is sin(2x): 2x less the nearest multiple k π, with the other sign where k is odd. For
+/// |x| ≤ near_sine.
 HWY_INLINE Vector near_sine_angle(Vector x) {
   const Floats d;
   const Ints i;

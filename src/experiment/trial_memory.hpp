@@ -11,7 +11,7 @@
 
 namespace amble::experiment {
 
-/// What trials without regard to their number within a generation depend on beside the genome.
+/// What the trials of a generation were drawn by: beside the genome they depend on nothing else.
 struct TrialDraw {
   std::int64_t seed = 0;  ///< of the run
   int generation = 0;     ///< by whose number noise and ground are drawn; 0 where trials do not vary
