@@ -46,8 +46,10 @@ std::string not_finite_in(const py::handle& value, const std::string& place) {
   if (py::isinstance<py::float_>(value)) return std::isfinite(value.cast<double>()) ? "" : place;
   if (py::isinstance<py::dict>(value)) {
     for (const auto& [key, member] : value.cast<py::dict>()) {
-      const auto name = key.cast<std::string>();
-      found = not_finite_in(member, place.empty() ? name : place + "." + name);
+      // Half a surrogate pair in a key has no UTF-8.
+      const py::bytes utf8 = py::str(key).attr("encode")("utf-8", "backslashreplace");
+      const std::string name = utf8;
+      found = not_finite_in(member, place.empty() ? name : fmt::format("{}.{}", place, name));
       if (!found.empty()) return found;
     }
   } else if (py::isinstance<py::list>(value)) {

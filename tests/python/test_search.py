@@ -165,7 +165,8 @@ def test_genomes_survive_dicts_and_pickles(config):
     (lambda d: {**d, "links": [{**d["links"][0], "foo": 1}, *d["links"][1:]]}, r"links\[0\]: unknown key 'foo'"),
     (lambda d: {**d, "links": [*d["links"], d["links"][0]]}, "out of order"),
     (lambda d: {**d, "links": [*d["links"], {**d["links"][0], "innovation": 10**6}]}, "a second time"),
-    (lambda d: {**d, "links": [d["links"][0], {**d["links"][1], "weight": np.float32("nan")}]}, r"'links\[1\].weight' must be a finite number")])
+    (lambda d: {**d, "links": [d["links"][0], {**d["links"][1], "weight": np.float32("nan")}]}, r"'links\[1\].weight' must be a finite number"),
+    (lambda d: {**d, "a\ud800": float("nan")}, r"'a\\ud800' must be a finite number")])
 def test_a_genome_of_other_keys_or_numbers_or_with_a_link_twice_is_refused(config, change, why):
     with pytest.raises(amble.Error, match=why):
         amble.Genome(change(amble.Search(config).ask()[0].to_dict()))
