@@ -6,6 +6,8 @@ Search (ask and tell), evaluate() and Controllers take search, simulation and co
 step by step. docs/PYTHON.md has recipes.
 """
 
+import functools as _functools
+
 from . import _built  # first: says so if the module was built for another Python
 from ._amble import (Champion, Config, Controllers, Error, Genome, Map, Problem, Recording, Robots, Run, Search, __commit__,
                      __version__, compare, evaluate, evolve, gait, load_config, new_robot, resume)
@@ -16,3 +18,16 @@ from ._view import Page, view
 __all__ = ["Champion", "Config", "Controllers", "Error", "Evaluation", "Genome", "Map", "Page", "Problem", "Recording", "Robots",
            "Run", "Search", "compare", "data_folder", "evaluate", "evolve", "gait", "load_config", "new_robot", "resume", "robots",
            "view"]
+
+
+def _of_this_module(function):
+    """The same by a name that pickle finds, so that processes of multiprocessing can be told to call it."""
+    @_functools.wraps(function)
+    def call(*arguments, **keywords):
+        return function(*arguments, **keywords)
+    call.__module__, call.__qualname__ = __name__, function.__name__
+    return call
+
+
+compare, evaluate, evolve, gait, load_config, new_robot, resume = map(
+    _of_this_module, (compare, evaluate, evolve, gait, load_config, new_robot, resume))

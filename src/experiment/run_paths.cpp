@@ -37,6 +37,18 @@ std::ptrdiff_t generations_done(const fs::path& table) {
   return std::max<std::ptrdiff_t>(0, std::ranges::count(text, '\n') - 1);
 }
 
+/// The generation of the last champion that the table of a run tells of; -1: of none, or it is no such table.
+int last_champion(const fs::path& table) {
+  try {
+    const auto rows = record::read_generations(table);
+    for (std::size_t i = rows.count(); i-- > 0;)
+      if (record::keeps_champion(rows, i)) return static_cast<int>(rows.generation[i]);
+  } catch (const UserError&) {
+    // Who reads the table says what is wrong with it.
+  }
+  return -1;
+}
+
 /// Of a folder that is no run's.
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "study.toml"))
@@ -82,6 +94,8 @@ std::vector<fs::path> RunPaths::champion_files() const {
 }
 
 fs::path RunPaths::best_champion() const {
+  // In this order: a run that goes on writes champions before the rows that tell of them.
+  const int best = last_champion(generations);
   const auto files = champion_files();
   std::error_code none;
   if (files.empty() && fs::exists(checkpoint, none) && generations_done(generations) > 0)
@@ -89,6 +103,11 @@ fs::path RunPaths::best_champion() const {
          folder.string(), champions.string());
   if (files.empty())
     fail(ExitCode::bad_input, "{}: no champion yet: its first generation is not done", folder.string());
+  if (*generation_of(files.back()) < best)
+    fail(ExitCode::bad_file,
+         "{}: missing, and it is the best of the run so far; put back a copy, or name the file of an earlier "
+         "champion, such as {}",
+         champion(best).string(), files.back().string());
   return files.back();
 }
 

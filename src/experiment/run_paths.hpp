@@ -24,7 +24,7 @@ struct RunPaths {
   std::filesystem::path champion(int generation) const;
   /// Champion files in the order of their generations; the last is the best. Other files are ignored.
   std::vector<std::filesystem::path> champion_files() const;
-  /// Throws UserError if the run has none.
+  /// Throws UserError if the run has none, or if its table tells of a later one than there is.
   std::filesystem::path best_champion() const;
 };
 

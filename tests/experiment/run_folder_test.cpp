@@ -140,6 +140,22 @@ TEST_F(Folder, ThatWasStoppedInItsFirstGenerationHasNoChampionYet) {
   EXPECT_THAT(error_of([&] { paths.best_champion(); }), HasSubstr("has no champion: was it emptied?"));
 }
 
+TEST_F(Folder, WithoutItsBestChampionDoesNotGiveTheSecond) {
+  begun();
+  const RunPaths paths(folder_);
+  const std::string columns = "generation,best,best_so_far,mean,median,evaluations,steps,wall_s\n";
+  const std::string rows =
+      columns + "0,1,1,0,0,8,80,1\n1,3,1,0,0,8,80,1\n2,2,2,0,0,8,80,1\n3,1,2,0,0,8,80,1\n";
+  io::write_file(paths.generations, rows);
+  io::write_file(paths.champion(0), "{}");
+  EXPECT_THAT(error_of([&] { paths.best_champion(); }),
+              HasSubstr("00002.json: missing, and it is the best of the run so far"));
+  io::write_file(paths.champion(2), "{}");
+  EXPECT_EQ(paths.best_champion(), paths.champion(2));
+  io::write_file(paths.champion(4), "{}");  // of the generation in flight
+  EXPECT_EQ(paths.best_champion(), paths.champion(4));
+}
+
 TEST_F(Folder, ManifestGrowsByEachProcess) {
   const auto run = begun();
   run.note_process(config_, 1, 17);

@@ -198,3 +198,14 @@ def test_spawned_processes_take_what_can_be_pickled(run, search):
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         assert pool.apply_async(operator.methodcaller("trial"), (champion,)).get(60) == champion.trial()
         assert pool.apply_async(operator.methodcaller("ask"), (search,)).get(60) == search.ask()
+
+
+def test_functions_of_the_module_are_called_in_other_processes(run, search):
+    for name in amble.__all__:
+        assert pickle.loads(pickle.dumps(getattr(amble, name))) is getattr(amble, name), name
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        there = pool.apply_async(amble.evaluate, (search, search.ask()[:3]), {"jobs": 1}).get(60)
+        assert pool.apply_async(amble.compare, ([run.champion()], [1.0], ["batch"])).get(60)
+        with pytest.raises(amble.Error, match="no/such.toml"):
+            pool.apply_async(amble.load_config, ("no/such.toml",)).get(60)
+    np.testing.assert_array_equal(there.objective, amble.evaluate(search, search.ask()[:3], jobs=1).objective)
