@@ -66,7 +66,7 @@ constexpr std::array map_measures{
     MapMeasure{"staying_share", "share of the elites that stay in their cell", true, true}};
 
 /// What a test must look for to have a measure.
-enum class Requires { trials, episodes, reaching, mutants, commands, energy, seam };
+enum class Requires { trials, episodes, reaching, mutants, commands, scores, energy, seam };
 
 struct TestMeasure {
   std::string_view name, label;
@@ -146,6 +146,8 @@ constexpr std::array test_measures{
     TestMeasure{"turn_error", "error of turning, rad/s",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::turn_error_rad_s); },
                 Requires::commands},
+    TestMeasure{"score", "score", [](const Record&, const TestResult& t) { return t.score(); },
+                Requires::scores, true},
     TestMeasure{"cost_of_transport", "cost of transport",
                 [](const Record&, const TestResult& t) { return t.cost_of_transport(); }, Requires::energy},
     TestMeasure{"switch_s", "time from a change of command until it is followed, s",
@@ -184,6 +186,8 @@ bool has(const TestSpec& test, Requires needs) {
       return test.mutants > 0;
     case Requires::commands:
       return !test.command.empty();
+    case Requires::scores:
+      return test.score;
     case Requires::energy:
       return test.energy;
     case Requires::seam:
@@ -241,16 +245,16 @@ std::string measure_names() {
   std::string corrected;
   for (const MapMeasure& row : map_measures)
     (row.is_corrected ? corrected : text) += fmt::format("{}, ", row.name);
-  std::array<std::string, 7> of_tests;
+  std::array<std::string, 8> of_tests;
   for (const TestMeasure& row : test_measures) {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
   return fmt::format(
       "{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}, with "
-      "command {}, with energy {}, with seam {}",
+      "command {}, with score {}, with energy {}, with seam {}",
       text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4], of_tests[5],
-      of_tests[6]);
+      of_tests[6], of_tests[7]);
 }
 
 std::vector<std::string> measures_of_runs() {

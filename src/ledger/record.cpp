@@ -48,6 +48,7 @@ io::Json to_json(const EpisodeResult& episode) {
     json["spent"] = {{"energy_j", episode.spent->energy_j},
                      {"way_m", episode.spent->way_m},
                      {"weight_n", episode.spent->weight_n}};
+  if (episode.score) json["score"] = *episode.score;
   return json;
 }
 
@@ -73,6 +74,7 @@ EpisodeResult episode_from(const io::JsonView& view) {
                      .weight_n = spent.at("weight_n").finite_number()};
     if (!(episode.spent->weight_n > 0.0)) spent.at("weight_n").bad("a number of more than 0");
   }
+  if (view.has("score")) episode.score = view.at("score").finite_number();
   return episode;
 }
 
@@ -257,6 +259,14 @@ std::optional<double> TestResult::obeyed(std::optional<double> Obeyed::*value) c
   std::vector<double> values;
   for (const EpisodeResult& episode : episodes)
     if (episode.obeyed && *episode.obeyed.*value) values.push_back(*(*episode.obeyed.*value));
+  if (values.empty()) return std::nullopt;
+  return statistics::median(values);
+}
+
+std::optional<double> TestResult::score() const {
+  std::vector<double> values;
+  for (const EpisodeResult& episode : episodes)
+    if (episode.score) values.push_back(*episode.score);
   if (values.empty()) return std::nullopt;
   return statistics::median(values);
 }

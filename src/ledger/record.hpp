@@ -41,6 +41,7 @@ struct EpisodeResult {
   record::Outcome outcome = record::Outcome::completed;
   std::optional<Obeyed> obeyed = {};  ///< of a trial with commands
   std::optional<Spent> spent = {};    ///< of a test that measures it
+  std::optional<double> score = {};   ///< as in evolution, in its unit, of a test that measures it
 
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
@@ -86,6 +87,8 @@ struct TestResult {
   double walking_s() const;  ///< median
   /// Median of the episodes with commands; nothing if there are none.
   std::optional<double> obeyed(std::optional<double> Obeyed::*value) const;
+  /// Median of the episodes that were scored; nothing if there are none.
+  std::optional<double> score() const;
   /// Energy of all episodes that were measured, by weight and way; infinite for a robot that went nowhere.
   /// Nothing if there are none.
   std::optional<double> cost_of_transport() const;

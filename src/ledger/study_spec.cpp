@@ -161,6 +161,7 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.number("reach_m", reach_m, {0, 1e6},
                  {"the first best of the run whose median trial gets that far is found, m; 0: not"});
+  visitor.flag("score", score, {"whether trials are also scored as in evolution, by [score] of the config"});
   visitor.flag("energy", energy, {"whether the cost of transport is measured"});
   visitor.flag("seam", seam,
                {"whether jumps of targets from cycle to cycle are measured, and the power after them"});

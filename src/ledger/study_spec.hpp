@@ -65,6 +65,7 @@ struct TestSpec {
   int episodes = 1;
   /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.
   double reach_m = 0.0;
+  bool score = false;   ///< also measures what the trials are worth by the [score] of each condition's config
   bool energy = false;  ///< also measures what the trials cost (Spent)
   bool seam = false;    ///< also measures how targets pass from cycle to cycle (Seam), of the first trial
   /// > 0: also tries so many mutants of the champion in the same trials (record::Mutant).

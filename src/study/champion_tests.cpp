@@ -9,6 +9,7 @@
 #include "amble/experiment/replay_together.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generations_csv.hpp"
+#include "amble/score/score.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/statistics/descriptive.hpp"
 #include "amble/trial/observers.hpp"
@@ -72,6 +73,13 @@ std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
   if (const auto& error = trial.tracking->turn_error_rad_s) obeyed.turn_error_rad_s = thousandths(*error);
   if (const auto& wait_s = trial.tracking->switch_s) obeyed.switch_s = thousandths(*wait_s);
   return obeyed;
+}
+
+/// Rounded as in records.
+std::optional<double> scored(const PlannedTest& test, const experiment::Problem& problem,
+                             const experiment::TrialResult& trial) {
+  if (!test.spec.score) return std::nullopt;
+  return thousandths(score::credited(trial.value(), trial.outcome, problem.trial.fall_factor));
 }
 
 /// Rounded as in records.
@@ -190,7 +198,8 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                                .walking_s = std::min(walks[i].walking_s(), trial.seconds),
                                .outcome = trial.outcome,
                                .obeyed = obeyed(trial),
-                               .spent = spent(test, problem, trial)});
+                               .spent = spent(test, problem, trial),
+                               .score = scored(test, problem, trial)});
   }
   const gait::Report report = gait.finish(replayed->front().outcome);
   result.gait = gait_name(report);

@@ -144,6 +144,7 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (steering) definition["steering"] = io::settings_to_json(steering->gains);
   if (steering && steering->heading.lead_rad > 0.0)
     definition["heading"] = io::settings_to_json(steering->heading);
+  if (spec.score) definition["score"] = true;
   if (spec.energy) definition["energy"] = true;
   if (spec.seam) definition["seam"] = true;
   return hex(hash_text(definition.dump()));

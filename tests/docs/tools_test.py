@@ -136,12 +136,12 @@ class EveryTool(Case):
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_without_what_it_needs_it_says_one_line(self):
-        without = {"figure-robots", "gallery-table", "lint", "make-site", "measure-browser", "recovery-study", "update-docs", "export-study"}
+        without = {"figure-robots", "gallery-table", "lint", "make-site", "measure-browser", "recovery-study", "task-table", "update-docs", "export-study"}
         self.all_wrong(*((name,) for name in runnable() if name not in without))
 
     def test_a_word_too_many_is_one_line(self):
         many = {"claim-power": 3, "defaults-table": 3, "figure-robots": 1, "gallery-table": 1, "make-site": 2, "map-record": 3, "measure-watch": 3,
-                "recovery-of-maps": 4, "spot-check": 7, "update-docs": 2, "article-numbers": 2, "lab-table.mjs": 3, "lab-walks.mjs": 2,
+                "recovery-of-maps": 4, "spot-check": 7, "task-table": 2, "update-docs": 2, "article-numbers": 2, "lab-table.mjs": 3, "lab-walks.mjs": 2,
                 "render-video.mjs": 3}
         self.all_wrong(*((name, *["1"] * count) for name, count in many.items() if name in runnable()))
 
@@ -154,7 +154,7 @@ class EveryTool(Case):
                 ("make-site", "site", "--program", program), ("measure-watch", program, "1"), ("printed-best", program, SOURCES / "configs/demo.toml", "1"),
                 ("printed-best", program, "--ledger", results, "sine"), ("spot-check", program, study, results),
                 ("recovery-study", "once", "./made", program), ("recovery-of-maps", "encodings", "made", program), ("update-docs", program))
-        self.all_wrong(("steering-gains", "--command", "c", "--full-speed", "1", "champion"), ("task-table", "made"),
+        self.all_wrong(("steering-gains", "--command", "c", "--full-speed", "1", "champion"),
                        ("public-robots", "made"), ("transfer-study", "made"))
         self.assertEqual([path.name for path in self.folder.iterdir()], ["evolved"])
 
@@ -192,6 +192,26 @@ class Tables(Case):
                                       "| best@0 | 4.0 | 5.0 |\n| train_m>=4 | 1 of 2 | 1 of 1 |\n")
         done = run_tool("claims-table", "tables", folder=self.folder)
         self.assertIn("| 1 | A walks | 1 m | 4 m | confirmed |", done.stdout)
+
+    def test_task_table(self):
+        config = SOURCES / "configs/tasks/swimmer.toml"
+        self.write("tasks/study.toml", f"""
+            name = "tasks"
+            seeds = [2, 3, 4]
+            conditions = [{{ name = "swimmer-sine", title = "Swimmer: sine wave", config = "{config}", settings = ["controller.kind=network"] }}]
+            tests = [{{ name = "swimmer", score = true, conditions = ["swimmer-sine"] }}]""")
+        for run, (seed, scores) in (("001", (2, [103, 104, 125])), ("002", (3, [130, 130, 140]))):
+            episodes = [{"outcome": "completed" if score > 103 else "fell", "score": score} for score in scores]
+            self.ledger("tasks", f"noise/ledger/supg-{run}.json", condition="swimmer-sine", seed=seed, evaluations=1000,
+                        tests=[{"name": "swimmer", "episodes": episodes}])
+        done = run_tool("task-table", "tasks", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| Swimmer | sine wave | 17 | 4, 30 | 17 | 1000 | ", done.stdout)
+        self.assertIn("| `configs/tasks/swimmer.toml --set controller.kind=network --seed 2` |\n\n2 of 3 runs, on ", done.stdout)
+        self.ledger("tasks", "noise/ledger/supg-001.json", condition="swimmer-sine")
+        self.wrong("task-table", "tasks", words=["supg-001.json", "scores in its test swimmer"])
+        self.wrong("task-table", SOURCES / "results/noise", words=["study.toml", "not of studies/tasks.toml"])
+        self.wrong("task-table", "nowhere")
 
     def test_typical_table(self):
         noise = SOURCES / "results/noise"
@@ -276,36 +296,6 @@ class Ledgers(Case):
 
 class Kept(Case):
     """What an earlier call made is taken if the same command of the same program made it, and never otherwise."""
-
-    def test_task_table(self):
-        stub = self.stub()
-
-        def table(*words, version="1"):
-            return run_tool("task-table", "tasks", "--seeds", "1", *words, "swimmer", folder=self.folder, AMBLE=str(stub), VERSION=version)
-
-        first = table()
-        self.assertEqual((first.returncode, len(first.stdout.splitlines()), len(self.asked())), (0, 8, 6), first.stderr)
-        self.assertIn("| swimmer | SUPG | -97 | 25 | 0 | `configs/tasks/swimmer.toml` |", first.stdout)
-        self.assertEqual(table().stdout, first.stdout)
-        self.assertEqual(len(self.asked()), 6)
-        self.assertOneLine(table("--set", "generations=2"), "swimmer-oscillators-1.txt", "generations=2", "amble 1 evolve")
-        self.assertOneLine(table(version="2"), "amble 2 evolve", "amble 1 evolve")
-        self.assertEqual(len(self.asked()), 6)
-        log = self.folder / "tasks/swimmer-supg-1.txt"
-        whole = log.read_text(encoding="utf-8")
-        self.assertTrue(whole.startswith("amble 1 evolve configs/tasks/swimmer.toml --seed 1 --jobs 2\n"))
-        for text in (whole[:len(whole) // 2], "", "12.5 s\nbest: typically 3.00 in 1 s", whole.splitlines()[0] + "\n"):
-            log.write_text(text, encoding="utf-8")
-            self.assertOneLine(table(), "swimmer-supg-1.txt")
-        log.unlink()
-        self.assertEqual(table().stdout, first.stdout)
-        self.assertEqual(len(self.asked()), 7)
-
-    def test_task_table_without_numbers_or_tasks(self):
-        self.write("file", "")
-        stub = str(self.stub())
-        for words in (["made", "nobody"], ["made", "--seeds", "x"], ["made", "--seeds", ""], ["made", "--set", "x"], ["file"]):
-            self.wrong("task-table", *words, AMBLE=stub)
 
     def test_recovery_of_maps_reads_the_folder_that_it_is_given(self):
         stub, committed = self.stub(), (SOURCES / "results/encodings/recovery.csv").read_bytes()

@@ -59,6 +59,16 @@ TEST(Measures, CostOfTransportIsEnergyByWeightAndWayAndInfiniteOfWhatGoesNowhere
   EXPECT_EQ(measure(record, "five.cost_of_transport"), std::numeric_limits<double>::infinity());
 }
 
+TEST(Measures, TheScoreOfATestIsTheMedianOfItsEpisodesInTheUnitOfTheConfigs) {
+  Record record = sample_record();
+  EXPECT_FALSE(measure(record, "five.score"));
+  record.tests[0].episodes[0].score = 3.5;
+  record.tests[0].episodes.push_back(record.tests[0].episodes[0]);
+  record.tests[0].episodes[1].score = 1.0;
+  EXPECT_EQ(measure(record, "five.score"), 2.25);
+  EXPECT_EQ(measure(parse_record(record_text(record), "record"), "five.score"), 2.25);
+}
+
 TEST(Measures, OfSeamsAndSwitchesAreThoseOfTheRecord) {
   Record record = sample_record();
   EXPECT_FALSE(measure(record, "five.jump_rad"));

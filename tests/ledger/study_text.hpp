@@ -56,6 +56,6 @@ inline const std::string all_measures =
     ".walking_s, .moving_s, .kept, with episodes .lower_quartile_m, .upper_quartile_m, .best_m, .fell_share, "
     "with reach_m .reached_s, .reached_generation, .reached_evaluations, with mutants .viable_share, "
     ".mutants_kept, .gait_change, with command .tracking, .speed_error, .turn_error, .switch_s, "
-    "with energy .cost_of_transport, with seam .jumps, .jump_rad, .jump_power_w";
+    "with score .score, with energy .cost_of_transport, with seam .jumps, .jump_rad, .jump_power_w";
 
 }  // namespace amble::ledger

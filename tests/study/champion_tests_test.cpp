@@ -199,6 +199,24 @@ TEST(ChampionTest, SteeredByHandIsTheTrialOfThatWalkerAndMeasuresItsCost) {
   EXPECT_FALSE(run_test(test, champion(), never)->episodes[0].spent);
 }
 
+TEST(ChampionTest, IsScoredAsInEvolutionWhereItIsAsked) {
+  PlannedTest test{.spec = trial_test("t", 6.0), .noise = {}};
+  EXPECT_FALSE(run_test(test, champion(), never)->episodes[0].score);
+  test.spec.score = true;
+  const auto walked = run_test(test, champion(), never)->episodes[0];
+  ASSERT_EQ(walked.outcome, record::Outcome::completed);
+  EXPECT_NEAR(walked.score.value(), walked.distance_m, 6e-4) << "whose score is the distance";
+
+  experiment::Champion other = champion();
+  other.problem.score.terms = {{.quantity = "upright_time", .weight = 10.0}};
+  EXPECT_EQ(run_test(test, other, never)->episodes[0].score, 10.0);
+  other.problem.robot.fall_height_m = 100.0;
+  other.problem.trial.fall_factor = 0.0;
+  const auto fell = run_test(test, other, never)->episodes[0];
+  ASSERT_EQ(fell.outcome, record::Outcome::fell);
+  EXPECT_EQ(fell.score, 0.0);
+}
+
 TEST(ChampionTest, MeasuresTheSeamOfItsFirstTrialWhereItIsAsked) {
   PlannedTest test{.spec = trial_test("t", 6.0), .noise = {}};
   EXPECT_FALSE(run_test(test, champion(), never)->seam);

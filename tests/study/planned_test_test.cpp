@@ -38,18 +38,20 @@ TEST(PlannedTest, IsTheSameOnlyIfNothingDiffersThatChangesItsTrials) {
   PlannedTest mutated = test, more_mutants = test;
   mutated.spec.mutants = 10;
   more_mutants.spec.mutants = 11;
-  PlannedTest steered = test, harder = test, led = test, measured = test, jumping = test;
+  PlannedTest steered = test, harder = test, led = test, measured = test, jumping = test, scored = test;
   steered.steering.emplace().gains.turn_gain = 1.0;
   harder.steering.emplace().gains.turn_gain = 2.0;
   led.steering = steered.steering;
   led.steering->heading.lead_rad = 1.0;
   measured.spec.energy = true;
   jumping.spec.seam = true;
+  scored.spec.score = true;
   PlannedTest quick = test, quicker = test;
   quick.engine_own.numbers["quick_sweeps"] = 20;
   quicker.engine_own.numbers["quick_sweeps"] = 10;
-  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated,
-                                   more_mutants, steered, harder, led, measured, jumping, quick, quicker})
+  for (const PlannedTest& other :
+       {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated, more_mutants, steered, harder, led,
+        measured, jumping, scored, quick, quicker})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 
