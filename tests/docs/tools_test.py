@@ -140,7 +140,7 @@ class EveryTool(Case):
         self.all_wrong(*((name,) for name in runnable() if name not in without))
 
     def test_a_word_too_many_is_one_line(self):
-        many = {"claim-power": 3, "defaults-table": 3, "figure-robots": 1, "gallery-table": 1, "make-site": 2, "map-record": 3, "measure-watch": 3,
+        many = {"claim-power": 3, "defaults-table": 3, "fastest-table": 3, "figure-robots": 1, "gallery-table": 1, "make-site": 2, "map-record": 3, "measure-watch": 3,
                 "recovery-of-maps": 4, "spot-check": 7, "task-table": 2, "update-docs": 2, "article-numbers": 2, "lab-table.mjs": 3, "lab-walks.mjs": 2,
                 "render-video.mjs": 3}
         self.all_wrong(*((name, *["1"] * count) for name, count in many.items() if name in runnable()))
@@ -212,6 +212,16 @@ class Tables(Case):
         self.wrong("task-table", "tasks", words=["supg-001.json", "scores in its test swimmer"])
         self.wrong("task-table", SOURCES / "results/noise", words=["study.toml", "not of studies/tasks.toml"])
         self.wrong("task-table", "nowhere")
+
+    def test_fastest_table(self):
+        done = run_tool("fastest-table", SOURCES / "results/baseline", "noisy-batch", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| Quadruped: oscillators, open loop | 10 of 10 | 2,100 | 2.3 | AVX-512 | 2,700 | 5.1 |\n", done.stdout)
+        self.assertIn("| Quadruped: sine wave network | 0 of 10 | – | – | – | – | – |\n", done.stdout)
+        self.wrong("fastest-table", SOURCES / "results/baseline", "rough", words=["study.toml", "no test 'rough' with reach_m"])
+        self.wrong("fastest-table", SOURCES / "results/noise", "noisy-batch")
+        self.wrong("fastest-table", "nowhere", "noisy-batch")
+        self.wrong("fastest-table", SOURCES / "results/baseline", "noisy-batch", "--again", "no-program", words=["no-program"])
 
     def test_typical_table(self):
         noise = SOURCES / "results/noise"
