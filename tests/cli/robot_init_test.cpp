@@ -162,6 +162,29 @@ TEST_F(RobotInit, WarnsOfInertiasTorquesAndMotorsThatAreHardlyMeant) {
               HasSubstr("warnings:\n  torques that"));
 }
 
+TEST_F(RobotInit, TakesAModularRobotWhoseStatorsAreFixedBodiesAndWhoseFeetAreBricks) {
+  const auto init =
+      amble({"robot", "--init", source + "/tests/models/ariel_spider.xml", "-o", scratch_ / "spider"});
+  ASSERT_EQ(init.exit_code, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("robot ariel_spider: 9 bodies, 8 joints, 4 legs, 1.7 kg"));
+  EXPECT_THAT(init.out, HasSubstr("held for a second in its start pose, it stands"));
+  EXPECT_THAT(slurp(scratch_ / "spider/evolve.toml"), HasSubstr("engine = \"batch\""));
+}
+
+TEST_F(RobotInit, GivesServosThatFollowLateACycleInWhichTheyGetThere) {
+  std::string late = slurp(source + "/robots/hexapod/hexapod.xml");
+  for (std::size_t at; (at = late.find("<velocity")) != std::string::npos;) late.replace(at, 9, "<position");
+  late = changed(changed(late, "kv=\"5\"", "kp=\"5\""), "damping=\"0.2\"", "damping=\"2.5\"");
+  spill(scratch_ / "late.xml", late);
+  spill(scratch_ / "soon.xml", changed(late, "damping=\"2.5\"", "damping=\"0.2\""));
+  for (const auto& [name, line] : std::map<std::string, std::string>{
+           {"late", "period_s = 2  # four times the 0.5 s that the motors take to follow"},
+           {"soon", "period_s = 0.48  # hips 0.2 m over the feet"}}) {
+    ASSERT_EQ(amble({"robot", "--init", scratch_ / (name + ".xml"), "-o", scratch_ / name}).exit_code, 0);
+    EXPECT_THAT(slurp(scratch_ / name / "evolve.toml"), HasSubstr(line));
+  }
+}
+
 TEST_F(RobotInit, SaysOfNoWeakRobotThatItStandsInItsOwnModel) {
   const std::string hexapod = slurp(source + "/robots/hexapod/hexapod.xml");
   spill(scratch_ / "weak.xml", changed(hexapod, "forcerange=\"-9 9\"", "forcerange=\"-0.05 0.05\""));

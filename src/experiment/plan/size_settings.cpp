@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "amble/robot/legs.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -12,6 +14,26 @@ namespace {
 constexpr double preset_leg_height_m = 0.88;
 constexpr double preset_gravity_m_s2 = 9.8, preset_period_s = 1.0, preset_push_m_s = 0.2,
                  preset_drop_m = 0.01;
+constexpr double least_period_s = 0.05, most_period_s = 5.0;
+constexpr double lags_of_a_period = 4.0;
+
+/// The time constant of a servo by torque, overdamped and without inertia, the median over the motors; 0 for
+/// servos by velocity, and without motors.
+double servo_lag_s(const robot::RobotSpec& robot) {
+  std::vector<double> lags_s;
+  for (const robot::Joint& joint : robot.joints) {
+    if (!joint.driven()) continue;
+    const robot::Servo& servo = joint.servo;
+    const bool by_torque = servo.mode == robot::ServoMode::torque && servo.kp_nm_per_rad > 0.0;
+    lags_s.push_back(by_torque ? (servo.kd_nm_s_per_rad + joint.damping_nm_s_per_rad) / servo.kp_nm_per_rad
+                               : 0.0);
+  }
+  return lags_s.empty() ? 0.0 : statistics::median(lags_s);
+}
+
+double rounded(double period_s) {
+  return std::clamp(std::round(100.0 * period_s) / 100.0, least_period_s, most_period_s);
+}
 
 }  // namespace
 
@@ -20,13 +42,16 @@ std::optional<SizeSettings> settings_of_size(const robot::RobotSpec& robot) {
   if (!(height_m > 0.0) || !(gravity_m_s2 > 0.0)) return std::nullopt;
   const double size = height_m / preset_leg_height_m, pull = gravity_m_s2 / preset_gravity_m_s2;
   const double time = std::sqrt(size / pull);
+  const double lag_s = servo_lag_s(robot);
+  const bool late = lags_of_a_period * lag_s > preset_period_s * time;
   constexpr double alike = 0.15;
-  if (std::abs(time - 1.0) < alike) return std::nullopt;
+  if (std::abs(time - 1.0) < alike && !late) return std::nullopt;
   return SizeSettings{.leg_height_m = height_m,
                       .preset_leg_height_m = preset_leg_height_m,
-                      .period_s = std::clamp(std::round(100.0 * preset_period_s * time) / 100.0, 0.05, 5.0),
+                      .period_s = rounded(late ? lags_of_a_period * lag_s : preset_period_s * time),
                       .push_m_s = preset_push_m_s * std::sqrt(size * pull),
-                      .start_height_m = preset_drop_m * size};
+                      .start_height_m = preset_drop_m * size,
+                      .servo_lag_s = late ? lag_s : 0.0};
 }
 
 std::optional<CommandSizes> commands_of_size(const robot::RobotSpec& robot) {
