@@ -5,7 +5,7 @@ import pytest
 from conftest import CONFIG, SMALL, SOURCE, program
 
 ALL = [CONFIG, CONFIG.parent / "sine-objective.toml", CONFIG.parent / "ctrnn-objective.toml",
-       CONFIG.parent.parent / "paper/supg-objective.toml"]
+       CONFIG.parent.parent / "paper/supg-objective.toml", CONFIG.parent.parent / "quick/oscillators.toml"]
 
 
 @pytest.mark.parametrize("path", ALL)

@@ -146,11 +146,10 @@ def test_a_child_forked_in_the_middle_of_a_call_gets_an_error_and_does_not_hang(
     assert busy and code == 1
 
 
-@pytest.mark.parametrize("preset, overrides", [("supg-objective", {}), ("supg-novelty", {}), ("supg-objective", {
-    "search.kind": "map-elites", "search.map_elites.batch": 8, "search.map_elites.initial": 8})])
+@pytest.mark.parametrize("preset, overrides", [("authors/supg-objective", {}), ("authors/supg-novelty", {}), ("quick/oscillators", {}), (
+    "repertoire/quadruped", {"search.kind": "map-elites", "search.map_elites.batch": 8, "search.map_elites.initial": 8})])
 def test_a_pickled_search_goes_on_to_the_bit(preset, overrides):
-    base = SOURCE / "configs/repertoire/quadruped.toml" if overrides else SOURCE / f"configs/authors/{preset}.toml"
-    search = amble.Search(amble.load_config(base, {**TINY, **overrides}), seed=9)
+    search = amble.Search(amble.load_config(SOURCE / f"configs/{preset}.toml", {**TINY, **overrides}), seed=9)
     for _ in range(3):
         search.tell(amble.evaluate(search, search.ask()))
     other, twin = pickle.loads(pickle.dumps(search)), copy.deepcopy(search)
