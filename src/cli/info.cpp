@@ -150,8 +150,9 @@ ExitCode run_info(const std::filesystem::path& folder) {
   fmt::print("digest      {} (equal for equal results; times do not count)\n",
              hex(experiment::run_digest(paths)));
   if (!champions.empty()) {
-    fmt::print("\nbest: {}\n", champions.back().string());
-    print_champion(experiment::load_champion(champions.back()));
+    const auto best = paths.best_champion();
+    fmt::print("\nbest: {}\n", best.string());
+    print_champion(experiment::load_champion(best));
   }
   if (rows.count() < to_index(config.generations))
     fmt::print("\nto continue, run: amble resume {}\n", io::shell_word(folder.string()));

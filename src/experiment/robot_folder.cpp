@@ -107,12 +107,13 @@ constexpr const char* score_of_two_legs =
 std::string settings_text(const robot::RobotSpec& robot) {
   const auto settings = settings_of_size(robot);
   if (!settings) return {};
+  const std::string hips = fmt::format("hips {:.2g} m over the feet", settings->leg_height_m);
   const std::string why =
       settings->servo_lag_s > 0.0
-          ? fmt::format("four times the {:.2g} s that the motors take to follow (damping / gain)",
+          ? fmt::format("three times the {:.2g} s that the motors take to follow, at most 5 s",
                         settings->servo_lag_s)
-          : fmt::format("hips {:.2g} m over the feet; 1 s where they are {:g} m, by the square root (Froude)",
-                        settings->leg_height_m, settings->preset_leg_height_m);
+          : fmt::format("{}; 1 s where they are {:g} m, by the square root (Froude)", hips,
+                        settings->preset_leg_height_m);
   return fmt::format(
       "\n"
       "[controller.supg]\n"
@@ -120,11 +121,11 @@ std::string settings_text(const robot::RobotSpec& robot) {
       "# trigger_debounce_ticks = {:.0f}  # fewer, longer steps, slower: a foot off the ground for a tenth "
       "of the period triggers\n"
       "\n"
-      "[noise]  # what the preset's pushes and drops are for a robot of that size\n"
+      "[noise]  # what the preset's pushes and drops are for a robot of that size{}\n"
       "push_m_s = {:.2g}\n"
       "start_height_m = {:.2g}\n",
-      settings->period_s, why, std::max(1.0, 0.1 * settings->period_s / tick_s), settings->push_m_s,
-      settings->start_height_m);
+      settings->period_s, why, std::max(1.0, 0.1 * settings->period_s / tick_s),
+      settings->servo_lag_s > 0.0 ? ", " + hips : "", settings->push_m_s, settings->start_height_m);
 }
 
 std::string config_text(const std::string& name, const std::string& engine,

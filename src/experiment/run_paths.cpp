@@ -37,12 +37,15 @@ std::ptrdiff_t generations_done(const fs::path& table) {
   return std::max<std::ptrdiff_t>(0, std::ranges::count(text, '\n') - 1);
 }
 
-/// The generation of the last champion that the table of a run tells of; -1: of none, or it is no such table.
+/// The generation of the last champion that the table of a run tells of; -1: of none, or it is no such table,
+/// such as one that was sorted.
 int last_champion(const fs::path& table) {
   try {
     const auto rows = record::read_generations(table);
+    for (std::size_t i = 0; i < rows.count(); ++i)
+      if (rows.generation[i] != static_cast<double>(i)) return -1;
     for (std::size_t i = rows.count(); i-- > 0;)
-      if (record::keeps_champion(rows, i)) return static_cast<int>(rows.generation[i]);
+      if (record::keeps_champion(rows, i)) return static_cast<int>(i);
   } catch (const UserError&) {
     // Who reads the table says what is wrong with it.
   }
@@ -98,7 +101,7 @@ fs::path RunPaths::best_champion() const {
   const int best = last_champion(generations);
   const auto files = champion_files();
   std::error_code none;
-  if (files.empty() && fs::exists(checkpoint, none) && generations_done(generations) > 0)
+  if (files.empty() && (best >= 0 || (fs::exists(checkpoint, none) && generations_done(generations) > 0)))
     fail(ExitCode::bad_input, "{}: generations are done, and {} has no champion: was it emptied?",
          folder.string(), champions.string());
   if (files.empty())

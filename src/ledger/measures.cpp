@@ -315,7 +315,7 @@ std::string measure_label(std::string_view name) {
 }
 
 std::string measure_unit(std::string_view name, const record::Objective& objective) {
-  if (name == "train_m") return objective.unit;
+  if (name == "train_m" || split(name).measure == "score") return objective.unit;
   return name.ends_with("_m") ? " m" : name.ends_with("_s") ? " s" : "";
 }
 

@@ -307,11 +307,19 @@ Vec3 off_feet(Vec3 com, const std::vector<Vec3>& feet) {
 
 }  // namespace
 
-StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& guesses, double reach) {
+StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& guesses,
+                          std::span<const std::optional<std::array<double, 2>>> targets_rad, double reach) {
   robot::RobotSpec robot;
   robot.bodies = parts.bodies;
   robot.geoms = parts.geoms;
   robot.joints = parts.joints;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (!targets_rad[j]) continue;
+    robot::Joint& joint = robot.joints[j];
+    const double lower = std::max(joint.lower_rad, (*targets_rad[j])[0] - parts.start_rad[j]),
+                 upper = std::min(joint.upper_rad, (*targets_rad[j])[1] - parts.start_rad[j]);
+    if (lower < upper) joint.lower_rad = lower, joint.upper_rad = upper;
+  }
   const bool biped = guesses.size() <= 2;
   std::vector<LegSolver> legs;
   legs.reserve(guesses.size());

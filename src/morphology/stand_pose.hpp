@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,11 +20,13 @@ struct StandPose {
   double uneven_share = 0.0, off_share = 0.0;
 };
 
-/// Angles of the legs' joints, within their stops, with which all feet are on one level below the hips, soles
-/// flat and the legs otherwise clear of the ground, at `reach` of the farthest that the shortest leg gets
-/// down (so that knees are bent; lower if another leg cannot be bent as far), and the centre of mass between
-/// the feet. Legs that turn about z at the hip, four and more, stand out to the sides. The trunk stays as it
-/// is in the parts. Deterministic.
-StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& legs, double reach);
+/// Angles of the legs' joints, within their stops and within `targets_rad`, with which all feet are on one
+/// level below the hips, soles flat and the legs otherwise clear of the ground, at `reach` of the farthest
+/// that the shortest leg gets down (so that knees are bent; lower if another leg cannot be bent as far), and
+/// the centre of mass between the feet. Legs that turn about z at the hip, four and more, stand out to the
+/// sides. The trunk stays as it is in the parts. `targets_rad`: for each joint what its motor can be told, as
+/// the model counts; nothing: any angle. Deterministic.
+StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& legs,
+                          std::span<const std::optional<std::array<double, 2>>> targets_rad, double reach);
 
 }  // namespace amble::morphology

@@ -157,7 +157,10 @@ class StartGuesser {
       leg.foot_geom = end_geom(start_.parts, limbs[to_index(leg.limb)], poses);
     const bool few = start_.legs.legs.size() <= 2;
     start_.reach = few ? 1.0 - (1.0 - start_.plan.reach) / 3.0 : start_.plan.reach;
-    const StandPose pose = find_stand_pose(start_.parts, start_.legs.legs, start_.reach);
+    std::vector<std::optional<std::array<double, 2>>> targets_rad;
+    for (const ServoGuess& servo : guess_servos(file_, start_.parts, 1.0))  // whatever its torque
+      targets_rad.push_back(servo.target_range_rad);
+    const StandPose pose = find_stand_pose(start_.parts, start_.legs.legs, targets_rad, start_.reach);
     for (const auto& [joint, angle] : pose.angles_rad) start_.options.start_angles_rad[joint] = angle;
     start_.uneven_share = pose.uneven_share;
     start_.off_share = pose.off_share;

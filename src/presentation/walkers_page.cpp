@@ -122,7 +122,9 @@ std::string WalkersPage::html() && {
 }
 
 std::vector<fs::path> champions_of_history(const fs::path& run) {
-  auto files = experiment::find_run(run).champion_files();
+  const auto paths = experiment::find_run(run);
+  if (!paths.champion_files().empty()) paths.best_champion();  // that it is there
+  auto files = paths.champion_files();
   if (files.size() <= most_ages) return files;
   std::vector<fs::path> ages;
   for (std::size_t i = 0; i < most_ages; ++i)

@@ -9,7 +9,6 @@
 #include "amble/experiment/replay_together.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generations_csv.hpp"
-#include "amble/score/score.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/statistics/descriptive.hpp"
 #include "amble/trial/observers.hpp"
@@ -79,7 +78,7 @@ std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
 std::optional<double> scored(const PlannedTest& test, const experiment::Problem& problem,
                              const experiment::TrialResult& trial) {
   if (!test.spec.score) return std::nullopt;
-  return thousandths(score::credited(trial.value(), trial.outcome, problem.trial.fall_factor));
+  return thousandths(problem.credited(trial.value(), trial.outcome));
 }
 
 /// Rounded as in records.

@@ -168,7 +168,11 @@ TEST_F(RobotInit, TakesAModularRobotWhoseStatorsAreFixedBodiesAndWhoseFeetAreBri
   ASSERT_EQ(init.exit_code, 0) << init.err;
   EXPECT_THAT(init.out, HasSubstr("robot ariel_spider: 9 bodies, 8 joints, 4 legs, 1.7 kg"));
   EXPECT_THAT(init.out, HasSubstr("held for a second in its start pose, it stands"));
-  EXPECT_THAT(slurp(scratch_ / "spider/evolve.toml"), HasSubstr("engine = \"batch\""));
+  const std::string config = slurp(scratch_ / "spider/evolve.toml");
+  EXPECT_THAT(config, HasSubstr("engine = \"batch\""));
+  EXPECT_THAT(config, HasSubstr("period_s = 3  # three times the 1 s"));
+  // Its motors can be told no more than a quarter turn, so it stands within that.
+  EXPECT_THAT(slurp(scratch_ / "spider/ariel_spider.toml"), HasSubstr("pitch = [-1.5708, "));
 }
 
 TEST_F(RobotInit, GivesServosThatFollowLateACycleInWhichTheyGetThere) {
@@ -178,7 +182,7 @@ TEST_F(RobotInit, GivesServosThatFollowLateACycleInWhichTheyGetThere) {
   spill(scratch_ / "late.xml", late);
   spill(scratch_ / "soon.xml", changed(late, "damping=\"2.5\"", "damping=\"0.2\""));
   for (const auto& [name, line] : std::map<std::string, std::string>{
-           {"late", "period_s = 2  # four times the 0.5 s that the motors take to follow"},
+           {"late", "period_s = 1.5  # three times the 0.5 s that the motors take to follow"},
            {"soon", "period_s = 0.48  # hips 0.2 m over the feet"}}) {
     ASSERT_EQ(amble({"robot", "--init", scratch_ / (name + ".xml"), "-o", scratch_ / name}).exit_code, 0);
     EXPECT_THAT(slurp(scratch_ / name / "evolve.toml"), HasSubstr(line));

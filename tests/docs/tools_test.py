@@ -208,6 +208,10 @@ class Tables(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("| Swimmer | sine wave | 17 | 4, 30 | 17 | 1000 | ", done.stdout)
         self.assertIn("| `configs/tasks/swimmer.toml --set controller.kind=network --seed 2` |\n\n2 of 3 runs, on ", done.stdout)
+        # The score of these stands in what they include first.
+        spec = (self.folder / "tasks/study.toml").read_text(encoding="utf-8")
+        self.write("tasks/study.toml", spec.replace("swimmer.toml", "swimmer-oscillators.toml"))
+        self.assertIn("| Swimmer | sine wave | 17 | 4, 30 | ", run_tool("task-table", "tasks", folder=self.folder).stdout)
         self.ledger("tasks", "noise/ledger/supg-001.json", condition="swimmer-sine")
         self.wrong("task-table", "tasks", words=["supg-001.json", "scores in its test swimmer"])
         self.wrong("task-table", SOURCES / "results/noise", words=["study.toml", "not of studies/tasks.toml"])

@@ -152,6 +152,9 @@ TEST_F(Folder, WithoutItsBestChampionDoesNotGiveTheSecond) {
               HasSubstr("00002.json: missing, and it is the best of the run so far"));
   io::write_file(paths.champion(2), "{}");
   EXPECT_EQ(paths.best_champion(), paths.champion(2));
+  io::write_file(paths.generations, columns + "1,3,9,0,0,8,80,1\n0,1,1,0,0,8,80,1\n");
+  EXPECT_EQ(paths.best_champion(), paths.champion(2)) << "of a table that was sorted";
+  io::write_file(paths.generations, rows);
   io::write_file(paths.champion(4), "{}");  // of the generation in flight
   EXPECT_EQ(paths.best_champion(), paths.champion(4));
 }

@@ -158,6 +158,8 @@ TEST(Measures, HaveAUnitByTheEndOfTheirNameAndTheObjectivesInEvolution) {
   EXPECT_EQ(measure_unit("train_m", distance), " m");
   EXPECT_EQ(measure_unit("train_m", score), "");
   EXPECT_EQ(measure_unit("five.distance_m", score), " m");
+  EXPECT_EQ(measure_unit("five.score", score), "");
+  EXPECT_EQ(measure_unit("five.score", distance), " m");
   EXPECT_EQ(measure_unit("five.walking_s", score), " s");
   EXPECT_EQ(measure_unit("links", distance), "");
   EXPECT_EQ(measure_unit("five.kept", distance), "");

@@ -202,6 +202,7 @@ def test_spawned_processes_take_what_can_be_pickled(run, search):
 def test_functions_of_the_module_are_called_in_other_processes(run, search):
     for name in amble.__all__:
         assert pickle.loads(pickle.dumps(getattr(amble, name))) is getattr(amble, name), name
+    assert pickle.loads(pickle.dumps([3, 1].count))(3) == 1 and pickle.loads(pickle.dumps(len)) is len
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         there = pool.apply_async(amble.evaluate, (search, search.ask()[:3]), {"jobs": 1}).get(60)
         assert pool.apply_async(amble.compare, ([run.champion()], [1.0], ["batch"])).get(60)

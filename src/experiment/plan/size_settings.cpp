@@ -15,18 +15,19 @@ constexpr double preset_leg_height_m = 0.88;
 constexpr double preset_gravity_m_s2 = 9.8, preset_period_s = 1.0, preset_push_m_s = 0.2,
                  preset_drop_m = 0.01;
 constexpr double least_period_s = 0.05, most_period_s = 5.0;
-constexpr double lags_of_a_period = 4.0;
+constexpr double lags_of_a_period = 3.0;
 
-/// The time constant of a servo by torque, overdamped and without inertia, the median over the motors; 0 for
-/// servos by velocity, and without motors.
+/// The time constant with which a servo comes near its target, without inertia, the median over the motors; 0
+/// without motors, and for those without a gain.
 double servo_lag_s(const robot::RobotSpec& robot) {
   std::vector<double> lags_s;
   for (const robot::Joint& joint : robot.joints) {
     if (!joint.driven()) continue;
     const robot::Servo& servo = joint.servo;
-    const bool by_torque = servo.mode == robot::ServoMode::torque && servo.kp_nm_per_rad > 0.0;
-    lags_s.push_back(by_torque ? (servo.kd_nm_s_per_rad + joint.damping_nm_s_per_rad) / servo.kp_nm_per_rad
-                               : 0.0);
+    const bool by_torque = servo.mode == robot::ServoMode::torque;
+    const double gain = by_torque ? servo.kp_nm_per_rad : servo.gain_per_s,
+                 slowness = by_torque ? servo.kd_nm_s_per_rad + joint.damping_nm_s_per_rad : 1.0;
+    lags_s.push_back(gain > 0.0 ? slowness / gain : 0.0);
   }
   return lags_s.empty() ? 0.0 : statistics::median(lags_s);
 }

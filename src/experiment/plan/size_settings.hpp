@@ -8,8 +8,8 @@ namespace amble::experiment {
 
 /// Settings for a robot of another size than the presets' quadruped, by Froude's rule: times go with the
 /// square root of the legs' height over gravity, speeds with that of the legs' height times gravity. None for
-/// a robot of about that size, unless its servos follow late: a period is four times what they take, in which
-/// a swing still reaches half of its targets.
+/// a robot of about that size, unless its servos follow late: a period is three times what they take, in
+/// which a swing still reaches four tenths of its targets, but at most 5 s.
 struct SizeSettings {
   double leg_height_m = 0.0, preset_leg_height_m = 0.0;
   double period_s = 0.0, push_m_s = 0.0, start_height_m = 0.0;
