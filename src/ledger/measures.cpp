@@ -103,6 +103,13 @@ std::optional<double> gait_change(const Record&, const TestResult& test) {
   return viable > 0.0 ? sum / viable : 0.0;
 }
 
+std::optional<double> scored(const Record&, const TestResult& test) {
+  return test.score();
+}
+std::optional<double> cost(const Record&, const TestResult& test) {
+  return test.cost_of_transport();
+}
+
 std::optional<double> jumps(const Record&, const TestResult& test) {
   return test.seam ? std::optional(static_cast<double>(test.seam->jumps)) : std::nullopt;
 }
@@ -146,10 +153,8 @@ constexpr std::array test_measures{
     TestMeasure{"turn_error", "error of turning, rad/s",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::turn_error_rad_s); },
                 Requires::commands},
-    TestMeasure{"score", "score", [](const Record&, const TestResult& t) { return t.score(); },
-                Requires::scores, true},
-    TestMeasure{"cost_of_transport", "cost of transport",
-                [](const Record&, const TestResult& t) { return t.cost_of_transport(); }, Requires::energy},
+    TestMeasure{"score", "score", scored, Requires::scores, true},
+    TestMeasure{"cost_of_transport", "cost of transport", cost, Requires::energy},
     TestMeasure{"switch_s", "time from a change of command until it is followed, s",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::switch_s); },
                 Requires::commands},

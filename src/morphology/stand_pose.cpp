@@ -305,10 +305,9 @@ Vec3 off_feet(Vec3 com, const std::vector<Vec3>& feet) {
   return {beyond(com.x, least.x, most.x), beyond(com.y, least.y, most.y), 0.0};
 }
 
-}  // namespace
-
-StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& guesses,
-                          std::span<const std::optional<std::array<double, 2>>> targets_rad, double reach) {
+/// The parts as a robot whose joints stop where their motors can be told to go no farther.
+robot::RobotSpec held_to(std::span<const std::optional<std::array<double, 2>>> targets_rad,
+                         const ModelParts& parts) {
   robot::RobotSpec robot;
   robot.bodies = parts.bodies;
   robot.geoms = parts.geoms;
@@ -320,6 +319,14 @@ StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& 
                  upper = std::min(joint.upper_rad, (*targets_rad[j])[1] - parts.start_rad[j]);
     if (lower < upper) joint.lower_rad = lower, joint.upper_rad = upper;
   }
+  return robot;
+}
+
+}  // namespace
+
+StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& guesses,
+                          std::span<const std::optional<std::array<double, 2>>> targets_rad, double reach) {
+  const robot::RobotSpec robot = held_to(targets_rad, parts);
   const bool biped = guesses.size() <= 2;
   std::vector<LegSolver> legs;
   legs.reserve(guesses.size());

@@ -61,7 +61,7 @@ def reasons(path):
 
 def prepare(workspace, program, source):
     """A copy of the project with the program where the build has it, and the model that pages call the reader's own."""
-    for name in ["configs", "studies", "robots", "docs", "results", "tools", "examples", "src", "include", "viewer"]:
+    for name in ["configs", "studies", "robots", "docs", "results", "tools", "examples", "src", "include", "viewer", "tests"]:
         if name in ("results", "docs"):
             shutil.copytree(source / name, workspace / name)
         else:
