@@ -164,6 +164,16 @@ def records(results):
         yield path, record
 
 
+def processor(record):
+    """That of a run, with its instruction set as its makers call it, which Highway calls AVX3."""
+    return record["provenance"]["cpu"].replace("AVX3", "AVX-512")
+
+
+def line(cells):
+    """A row of a Markdown table."""
+    return "| " + " | ".join(cells) + " |"
+
+
 def folder_for(path):
     """Makes a folder for what a tool makes, if it is not there."""
     if os.path.exists(path) and not os.path.isdir(path):
