@@ -48,7 +48,10 @@ void check_best(const RunPaths& paths, const Config& config, const Problem& prob
   if (progress.best_generation < 0) return;
   const auto file = paths.champion(progress.best_generation);
   if (!std::filesystem::exists(file))
-    fail(ExitCode::bad_file, "{}: missing, and it is the best of the run so far", file.string());
+    fail(
+        ExitCode::bad_file,
+        "{}: missing, and it is the best of the run so far: put back a copy, the run cannot go on without it",
+        file.string());
   const auto best = load_champion(file);
   if (best.generation != progress.best_generation || best.seed != config.seed ||
       best.objective() != progress.best)
