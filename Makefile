@@ -104,7 +104,7 @@ article: build
 	mkdir -p build/paper
 	tools/article-numbers build/release/src/cli/amble --check --tables build/paper/tables
 	for figure in distance-five-min typical-15s; do \
-	  rsvg-convert -f pdf -o build/paper/$$figure.pdf build/paper/tables/paper/figures/$$figure.svg || exit 1; done
+	  rsvg-convert --stylesheet paper/figures.css -f pdf -o build/paper/$$figure.pdf build/paper/tables/paper/figures/$$figure.svg || exit 1; done
 	cd paper && for pass in 1 2 3; do \
 	  pdflatex -interaction=nonstopmode -halt-on-error -output-directory=../build/paper article >../build/paper/pdflatex.txt || \
 	    { grep -A3 '^!' ../build/paper/pdflatex.txt; exit 1; }; \
