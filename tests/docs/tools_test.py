@@ -3,6 +3,8 @@
     tools_test.py PROGRAM SOURCES
 """
 
+import importlib.machinery
+import importlib.util
 import json
 import os
 import shutil
@@ -56,6 +58,14 @@ def run_tool(name, *arguments, folder, tools=SOURCES / "tools", **environment):
 def runnable():
     return [name for name in TOOLS if shutil.which("node") or not name.endswith(".mjs")]
 
+
+
+def tool_as_module(name):
+    sys.path.insert(0, str(SOURCES / "tools"))
+    loader = importlib.machinery.SourceFileLoader(name.replace("-", "_"), str(SOURCES / "tools" / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
 
 class Case(unittest.TestCase):
     def setUp(self):
@@ -250,6 +260,18 @@ class Ledgers(Case):
                        ("spot-check", *whole, "1", "x"), ("spot-check", *whole, "1", "1", "0"), ("spot-check", PROGRAM, "nowhere.toml", results),
                        ("spot-check", PROGRAM, study, "nowhere"), ("spot-check", PROGRAM, study, "empty"))
         self.wrong("spot-check", *whole, "10", words=["RUNS 10", "9 of the study's runs"])
+
+    def test_spot_check_compares_all_but_what_older_records_do_not_say(self):
+        tool = tool_as_module("spot-check")
+        older = SOURCES / "results/emitters/ledger/hexapod-supg-line-001.json"
+        self.ledger("now", "emitters/ledger/hexapod-supg-line-001.json", map_trials=32)
+        [now] = (self.folder / "now/ledger").iterdir()
+        self.assertEqual(tool.compare(now, older), ([], []))
+        self.assertEqual(tool.compare(older, now), (["map_trials"], []))
+        self.ledger("other", "emitters/ledger/hexapod-supg-line-001.json", map_trials=32, hidden=99)
+        [other] = (self.folder / "other/ledger").iterdir()
+        self.assertEqual(tool.compare(other, older), (["hidden"], []))
+        self.assertEqual(tool.compare(now, other), (["hidden"], []))
 
     def test_spot_check_shows_what_amble_says_where_it_fails(self):
         liar = self.write("liar", f'#!/bin/sh\ncase "$*" in *--discard-runs*) echo "amble: no disk" >&2; exit 4 ;; esac\nexec "{PROGRAM}" "$@"\n', 0o755)
