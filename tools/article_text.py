@@ -4,7 +4,7 @@ import re
 
 from tool_input import Wrong
 
-BLANKED = "label ref cite texttt begin end figurefile sidefigure bibliography bibliographystyle".split()
+BLANKED = "label ref cite texttt begin end sidefigure bibliography bibliographystyle".split()
 WORDS = """two three four five six seven eight nine ten eleven twelve thirteen fifteen sixteen twenty thirty hundred thousand half
            third quarter"""
 

@@ -59,13 +59,13 @@ def runnable():
     return [name for name in TOOLS if shutil.which("node") or not name.endswith(".mjs")]
 
 
-
 def tool_as_module(name):
     sys.path.insert(0, str(SOURCES / "tools"))
     loader = importlib.machinery.SourceFileLoader(name.replace("-", "_"), str(SOURCES / "tools" / name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
+
 
 class Case(unittest.TestCase):
     def setUp(self):
