@@ -54,7 +54,7 @@ test:
 	@{ ./setup --tools && viewer/install-packages >/dev/null; } & tools=$$!; \
 	set -ex; cmake --preset $(PRESET) $(if $(filter release,$(PRESET)),-DAMBLE_TESTS=ON -DAMBLE_PYTHON=ON); cmake --build --preset $(PRESET); \
 	wait $$tools || echo "some tests will be skipped: see above"; \
-	ctest --preset $(PRESET) -j $$(($(JOBS) + 1)) $(if $(filter all,$(TESTS)),,-LE long)
+	ctest --preset $(PRESET) -j $$(($(JOBS) + 1)) $(if $(filter all,$(TESTS)),,-LE long) || { tools/failed-tests build/$(PRESET); exit 8; }
 	@$(if $(filter all,$(TESTS)),,echo "the tests that take long are left out; to run them too: make test TESTS=all")
 
 # The libraries that need neither ODE nor MuJoCo, compiled for aarch64, and their tests under an emulator: the same bits as on x86-64.

@@ -405,6 +405,22 @@ class Kept(Case):
 
 
 class Others(Case):
+    def test_failed_tests_are_told_apart_from_what_passed_around_them(self):
+        rule = "-" * 58 + "\n"
+        block = "{0}/2 Testing: {1}\n{0}/2 Test: {1}\nOutput:\n" + rule + "{2}<end of output>\nTest time = 0 sec\n" + rule + "Test Failed.\n\n"
+        said = "ok 1 - before\nnot ok 2 - a claim\n  error: '2 == 3'\n" + "".join(f"line {i}\n" for i in range(99)) + "ok 3 - behind\n"
+        log = rule + block.format(1, "Viewer.page", said) + rule + block.format(2, "quiet", "".join(f"at {i}\n" for i in range(30)))
+        self.write("build/Testing/Temporary/LastTest.log", log)
+        self.write("build/Testing/Temporary/LastTestsFailed.log", "7:Viewer.page\n8:quiet\n9:absent\n")
+        done = run_tool("failed-tests", "build", folder=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page, absent, quiet = "--- Viewer.page failed:", "--- absent failed:\nit did not run\n", "--- quiet failed:\nat 10\n"
+        for part in (f"{page}\nnot ok 2 - a claim\n  error: '2 == 3'\nline 0\n", absent, quiet):
+            self.assertIn(part, done.stdout)
+        for part in ("before", "behind", "line 50", "at 9\n"):
+            self.assertNotIn(part, done.stdout)
+        self.wrong("failed-tests", "nowhere", words=["nowhere", "ctest"])
+
     def test_champions_settings_and_sources_that_are_wrong(self):
         self.write("page.html", "")
         champion = SOURCES / "robots/hexapod/steered.json"

@@ -409,9 +409,13 @@ test("without WebGL the picture is drawn in outlines, and moves with the diagram
 
 test("where the browser takes WebGL away the picture goes on in outlines", async () => {
   const { page, problems } = await open(browser, makePage("walk8.html", recording("walk.rec")), { at_s: 0.5 });
-  assert.equal(await page.evaluate(() => { window.amble.render(); return window.amble.drawnAs(); }), "solid");
   const before = await pictureOf(page);
-  await page.evaluate(() => document.querySelector("#stage canvas").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
+  assert.equal(await page.evaluate(() => {
+    window.amble.render(); // in the same step as what follows: where a processor draws, the next frame may be outlines for a moment
+    const drawn = window.amble.drawnAs();
+    document.querySelector("#stage canvas").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
+    return drawn;
+  }), "solid");
   await page.waitForFunction(() => window.amble.drawnAs() === "outlines");
   assert.ok((await pictureOf(page)).colours > 100);
   await page.keyboard.press("Shift+ArrowRight");
