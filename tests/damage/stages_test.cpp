@@ -47,6 +47,28 @@ TEST(DamageStages, WithoutAMissingLegLeaveARobotThatIsSoundAndOtherwiseTheSame) 
   }
 }
 
+TEST(DamageStages, AreDrawnWithoutTheLegsThatAreMissingFromTheStartAlone) {
+  const auto robot = quadruped();
+  const auto gone = [&](const Part& part) {
+    std::vector<std::string> legs;
+    const robot::RobotSpec drawn = as_drawn(robot, {{part}});
+    for (std::size_t g = 0; g < drawn.geoms.size(); ++g) {
+      const int leg = robot.leg_of_body(drawn.geoms[g].body);
+      if (drawn.geoms[g].rgba != robot::gone_rgba) continue;
+      EXPECT_GE(leg, 0);
+      if (legs.empty() || legs.back() != robot.legs[to_index(leg)].name)
+        legs.push_back(robot.legs[to_index(leg)].name);
+    }
+    return legs;
+  };
+  const std::string second = robot.legs[1].name;
+  Part part = missing(second);
+  EXPECT_EQ(gone(part), std::vector<std::string>{second});
+  part.from_s = 2.0;
+  EXPECT_TRUE(gone(part).empty()) << "it is there at first";
+  EXPECT_TRUE(gone(locked(robot.joints[0].name, 0.0)).empty());
+}
+
 TEST(DamageStages, LockAJointWithoutAMotorAndLeaveFeetOfSeveralShapesWhole) {
   robot::RobotSpec robot = tests::with_passive_joint(tests::legged_robot(2));
   robot::Leg& last = robot.legs.back();

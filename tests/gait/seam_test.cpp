@@ -24,9 +24,9 @@ TEST(SeamMeter, TakesTheFarthestTargetOfALegThatJumps) {
     meter.add({.target_rad = target, .angle_rad = rest, .torque_nm = {}, .timer = timer, .trigger = trigger});
   };
   add({0.0f, 0.0f, 0.0f}, {-1.0f, 5.0f}, {0.0f, 0.0f});
-  add({0.1f, -0.3f, 0.2f}, {1.0f, 6.0f}, {0.0f, 0.0f});  // the first leg starts: 0.3 rad; the second goes on
-  add({0.2f, -0.2f, 0.7f}, {2.0f, 1.0f}, {0.0f, 1.0f});  // the second is triggered: 0.5 rad
-  add({0.3f, -0.1f, 0.8f}, {3.0f, 1.0f}, {0.0f, 1.0f});  // and again, to where it is: 0.1 rad
+  add({0.1f, -0.3f, 0.2f}, {0.0f, 6.0f}, {0.0f, 0.0f});  // the first leg starts: 0.3 rad; the second goes on
+  add({0.2f, -0.2f, 0.7f}, {1.0f, 1.0f}, {0.0f, 1.0f});  // the second is triggered: 0.5 rad
+  add({0.3f, -0.1f, 0.8f}, {2.0f, 1.0f}, {0.0f, 1.0f});  // and again, to where it is: 0.1 rad
   add({0.4f, 0.0f, 0.9f}, {-1.0f, 2.0f}, {0.0f, 0.0f});  // the first stops: 0.1 rad
   add({0.4f, 0.0f, 1.0f}, {-1.0f, 3.0f}, {0.0f, 0.0f});
   const SeamReport report = meter.report();

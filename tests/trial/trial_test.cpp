@@ -23,6 +23,23 @@ Protocol protocol(int steps, double fall_height_m = 0.0, record::PathSampling pa
   return protocol;
 }
 
+/// A start, and nothing else.
+Scenario start_at(Vec3 position_m, Quat rotation = {}) {
+  Scenario scenario;
+  scenario.start = physics::StartPose{.root = {position_m, rotation}, .joint_angle_rad = {0.0}};
+  scenario.joint_sensor_rad = {0.0f};
+  scenario.attitude_sensor_rad = {0.0f, 0.0f, 0.0f};
+  return scenario;
+}
+
+/// A start, a push and a latency.
+Scenario some_scenario() {
+  Scenario scenario = start_at({7.0, 0.0, 2.0});
+  scenario.pushes = {{.step = 3, .impulse_n_s = {100.0, 0.0, 0.0}}};
+  scenario.latency_ticks = 2;
+  return scenario;
+}
+
 TEST(Runner, StopsACompletedTrialAfterItsLastStep) {
   FakeEngine engine(1);
   FakeBatch batch(1);
@@ -108,6 +125,19 @@ TEST(Runner, KeepsTheLastHealthyPositionOfATrialThatDiverges) {
   EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 4.0);
 }
 
+TEST(Runner, KeepsTheDirectionOfTheStartForATrialThatDiverges) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  const auto to_the_left = start_at({0.0, 0.0, 2.0}, {std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)});
+  Queue queue({FakeParameters(1.0f, 4)}, &to_the_left);
+  Runner(engine, batch, protocol(100)).run(queue, never);
+  const auto& trajectory = queue.results[0].value();
+  ASSERT_EQ(trajectory.outcome, record::Outcome::diverged);
+  EXPECT_NEAR(trajectory.forward_y, 1.0, 1e-12);
+  EXPECT_EQ(trajectory.forward_end_x, trajectory.forward_x);
+  EXPECT_EQ(trajectory.forward_end_y, trajectory.forward_y);
+}
+
 TEST(Runner, SamplesThePathOnceInEachStrideRelativeToTheStart) {
   for (const int first_step : {1, 2, 3}) {
     FakeEngine engine(1);
@@ -119,13 +149,14 @@ TEST(Runner, SamplesThePathOnceInEachStrideRelativeToTheStart) {
   }
 }
 
-TEST(Runner, NotesTheCentreOfMassAfterEachWholeSecondIfAsked) {
+TEST(Runner, NotesTheCentreOfMassAfterEachWholeSecondRelativeToTheStartIfAsked) {
   FakeEngine engine(1);
   FakeBatch batch(1);
+  const auto displaced = start_at({7.0, 3.0, 2.0});
   for (const bool asked : {false, true}) {
     Protocol seconds = protocol(250);
     seconds.measures.seconds = asked;
-    Queue queue({FakeParameters(0.25f)});
+    Queue queue({FakeParameters(0.25f)}, &displaced);
     Runner(engine, batch, seconds).run(queue, never);
     EXPECT_EQ(queue.results[0]->com_by_second_m,
               asked ? std::vector<double>({25.0, 0.0, 50.0, 0.0}) : std::vector<double>());
@@ -240,17 +271,6 @@ TEST(Runner, GivesEveryTrialTheSameResultForAnyNumberOfLanes) {
     for (const auto& result : queue.results) ends.back().push_back(result.value().com_end_m.x);
   }
   for (const auto& other : ends) EXPECT_EQ(other, ends.front());
-}
-
-/// A start, a push and a latency.
-Scenario some_scenario() {
-  Scenario scenario;
-  scenario.start = physics::StartPose{.root = {{7.0, 0.0, 2.0}, {}}, .joint_angle_rad = {0.0}};
-  scenario.pushes = {{.step = 3, .impulse_n_s = {100.0, 0.0, 0.0}}};
-  scenario.joint_sensor_rad = {0.0f};
-  scenario.attitude_sensor_rad = {0.0f, 0.0f, 0.0f};
-  scenario.latency_ticks = 2;
-  return scenario;
 }
 
 TEST(Runner, LetsAScenarioActOnItsTrial) {
