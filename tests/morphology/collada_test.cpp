@@ -91,6 +91,13 @@ TEST(Collada, AppliesTheTransformsOfNodesWithinEachOtherInTheirOrder) {
       read({.node = "<node><matrix>1 0 0 0 0 0 -1 0 0 1 0 7 0 0 0 1</matrix><node><scale>2 2 2</scale>" +
                     geometry + "</node></node>"}),
       {0, 0, 7}, {2, 0, 11});
+  const auto turned = [&](const std::string& rotation) {
+    return read({.node = "<node><rotate>" + rotation + "</rotate>" + geometry + "</node>"});
+  };
+  expect_box(turned("1 0 0 90"), {0, 0, 0}, {1, 0, 2});
+  expect_box(turned("0 1 0 90"), {0, 0, -1}, {0, 2, 0});
+  expect_box(turned("2 2 2 120"), {0, 0, 0}, {0, 1, 2});
+  expect_box(turned("2 2 2 -120"), {0, 0, 0}, {2, 0, 1});
   const std::string unit = R"(<unit meter="0.1"/>)";
   expect_box(read({.asset = unit, .node = "<node><translate>5 0 0</translate>" + geometry + "</node>"}),
              {0.5F, 0, 0}, {0.6F, 0.2F, 0});

@@ -83,6 +83,31 @@ TEST(Motion, ReadsAFrameOfAMotion) {
   EXPECT_NEAR(at.z, 1.0, 1e-6);
 }
 
+TEST(CommandedPath, TurnsToTheLeftFromTheAxisOfTheFirstFrame) {
+  auto recorded = tests::walk(3);
+  Motion& motion = recorded.motion;
+  EXPECT_TRUE(commanded_path_m(recorded.robot, motion).empty()) << "it was told nothing";
+  const auto left = static_cast<float>(quarter / motion.frame_s),
+             metre = static_cast<float>(1.0 / motion.frame_s);
+  motion.root_rotation.assign(
+      3, Quat{std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)} * recorded.robot.bodies[0].rotation);
+  motion.command = {{metre, left}, {metre, 0.0f}, {metre, -left}};
+  const auto path_m = commanded_path_m(recorded.robot, motion);
+  ASSERT_EQ(path_m.size(), 4u);
+  EXPECT_NEAR(norm(path_m[0] - motion.com_start_m), 0.0, 1e-12);
+  EXPECT_NEAR(norm(path_m[1] - path_m[0] - Vec3{0, 1, 0}), 0.0, 1e-6);
+  EXPECT_NEAR(norm(path_m[2] - path_m[1] - Vec3{-1, 0, 0}), 0.0, 1e-6);
+  EXPECT_NEAR(norm(path_m[3] - path_m[2] - Vec3{-1, 0, 0}), 0.0, 1e-6);
+}
+
+TEST(Summary, HasTheOutcome) {
+  Motion motion = tests::walk(2).motion;
+  for (const auto outcome : {record::Outcome::completed, record::Outcome::fell}) {
+    motion.outcome = outcome;
+    EXPECT_EQ(summarise(motion).outcome, outcome);
+  }
+}
+
 TEST(Summary, CountsFromBeforeTheFirstStep) {
   const Summary summary = summarise(tests::walk(20).motion);
   EXPECT_NEAR(summary.distance_m, 1.0, 1e-12);
