@@ -7,7 +7,7 @@ namespace {
 
 using Kind = Sensor::Kind;
 
-TEST(Sensor, OfAttitudeAsksForNothingAndEachOtherForItsOwn) {
+TEST(Sensor, AsksForWhatFramesHaveOnlyIfAsked) {
   for (const Kind kind : {Kind::angle, Kind::touch, Kind::roll, Kind::pitch, Kind::yaw, Kind::sine})
     EXPECT_EQ(extra_senses({kind, 0}), robot::ExtraSenses{});
   EXPECT_EQ(extra_senses({Kind::speed, 0}), (robot::ExtraSenses{.speed = true}));

@@ -8,7 +8,7 @@ import { chromium } from "../../viewer/node_modules/playwright-core/index.mjs";
 
 const { AMBLE_PROGRAM, AMBLE_RECORDINGS, AMBLE_PAGES, CHROMIUM = "/usr/bin/chromium" } = process.env;
 // The processor draws the pages' 3-D; it puts a page's parts together faster by itself than by this GL.
-// Nobody watches it: a picture may take long while other tests run.
+// Without the watchdog, as a picture may take long while other tests run.
 const SOFTWARE_GL = ["--disable-gpu-watchdog", "--disable-gpu-compositing", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 export const recording = (name) => join(AMBLE_RECORDINGS, name);
